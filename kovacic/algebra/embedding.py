@@ -4,10 +4,10 @@ A user's sqrt(2) + sqrt(8) isn't 0: radicals have principal values.  The fields 
 approximation of theta, good enough to tell the roots of every polynomial that turns up from one another; decisions about
 equality are always exact, an approximation only chooses between roots that are known to be different.
 
-FLINT isolates the complex zeros of an integer polynomial by a call that can't be stopped.  It is short for coefficients of a
-few words, and its time can't be foreseen for long ones, which may have zeros as near to each other as 1 and 1 + 10^-5000:
-those of degree 2 are written down, and for those of a higher degree FLINT works in a process of its own.  So it does where
-zeros of short ones, if they lie in clusters, would take longer than the time that is left.
+FLINT isolates the complex zeros of an integer polynomial in a single uninterruptible call.  The call is short if the
+coefficients have a few words; for longer ones, whose zeros may be as close as 1 and 1 + 10^-5000, its time is unpredictable.
+Quadratic polynomials are then solved by their formula, and others in a separate process.  That process is also used for short
+coefficients if clustered zeros might take longer than the remaining time.
 """
 
 from __future__ import annotations
@@ -157,6 +157,7 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     n = tower.absolute_degree
     shift, powers = _primitive_element(tower, old)
     columns = [powers[n], _padded_coordinates(tower.embed(old.generator), n), _padded_coordinates(tower.generator, n)]
+    # The coordinates of theta'^n, theta and c with respect to the powers 1, theta', ..., theta'^(n-1).
     solved = _matrix(powers[:n]).solve(_matrix(columns))
     power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
     modulus = QQ.poly([*(-q for q in power), 1])

@@ -30,7 +30,7 @@ def products(factors: Sequence[Any]) -> list[list[Any]]:
 
 
 def squarefree_factors(polynomial: Poly) -> list[tuple[Poly, int]]:
-    """(p, k): the squarefree product p of the factors of multiplicity k, for k in rising order [Yun 1976]."""
+    """Pairs (p, k): p the product of the irreducible factors of multiplicity k, in increasing order of k [Yun 1976]."""
     found = []
     k = 0
     rest = polynomial.gcd(polynomial.derivative())
@@ -105,7 +105,7 @@ def dependence(polynomials: Sequence[Poly]) -> list[Poly] | None:
 
 
 def _reduced_by_former(polynomials: Sequence[Poly]) -> Iterator[_Combination]:
-    """Each of the polynomials less a combination of those before it that has the degree of none of these, reduced as well."""
+    """Each polynomial minus a combination of its predecessors, of a degree that none of their own remainders has."""
     zero = polynomials[0].field.poly([])
     echelon: dict[int, _Combination] = {}
     for k, polynomial in enumerate(polynomials):

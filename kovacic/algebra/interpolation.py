@@ -23,7 +23,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import RationalHomomorphism, RationalPoly
 from kovacic.errors import LimitExceeded
 
-#: The largest linear system: beyond it the answer has too many terms in the parameters.
+#: Unknowns of the largest linear system: for more, the answer has too many terms in the parameters.
 _LARGEST_SYSTEM = 2400
 
 

@@ -285,7 +285,7 @@ class RationalHomomorphism(Homomorphism):
 
 
 class RationalField(Field):
-    """The field Q of rational numbers; there is one, `QQ`, so that fields are compared at no cost."""
+    """The field Q of rational numbers: `QQ` is its only instance, so that comparing fields costs nothing."""
 
     __slots__ = ()
 

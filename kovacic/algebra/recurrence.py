@@ -184,7 +184,7 @@ def _natural_roots(factor: Poly) -> list[int]:
 
 
 def _other_roots(factor: Poly, root: Poly) -> list[Poly]:
-    """The root of a quadratic factor beside this one; none of a linear one."""
+    """The other root of a quadratic factor; a linear one has none."""
     return [-factor[1] / factor[2] - root] if factor.degree == 2 else []
 
 

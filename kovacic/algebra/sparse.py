@@ -47,6 +47,7 @@ def by_power(polynomial: Any, variable: int) -> dict[int, Any]:
 
 
 def constant_term(polynomial: Any) -> int:
+    """The coefficient of the term without variables."""
     return next((int(c) for e, c in polynomial.to_dict().items() if not any(e)), 0)
 
 
@@ -69,7 +70,7 @@ def factorisation(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
 
 
 def _sparse_factors(names: tuple[str, ...], terms: _SparseTerms) -> tuple[int, list[tuple[_SparseTerms, int]]]:
-    """Content and factors of a polynomial that is given, as they are, in a form that pickles."""
+    """`factorisation` with arguments and result that pickle."""
     context = fmpz_mpoly_ctx.get(names, Ordering.lex)
     content, factors = _factored_at_once(context.from_dict(dict(terms)))
     return content, [(terms_of(factor), k) for factor, k in factors]

@@ -92,6 +92,7 @@ def _extended(
 
     None if there are fewer roots.  Raises `BadPrimeError`.
     """
+    # The roots over one homomorphism of K stay together: `coordinates` takes them in blocks of n.
     found: list[ExtensionHomomorphism] = []
     needed = modulus.degree if complete else 1
     for h in bundle:

@@ -37,7 +37,7 @@ def largest_integer_total(base: Fraction, choices: Iterable[Fraction]) -> int:
 
 
 def is_provably_not_a_square(element: Poly, modulus: Poly) -> bool:
-    """True if it is seen quickly that an element of K[x]/p isn't a square there.
+    """True if a quick test proves that an element of K[x]/p isn't a square there.
 
     For a linear p and a rational number K decides; else a norm that is a non-residue modulo some prime proves it.
     """

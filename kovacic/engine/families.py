@@ -82,7 +82,7 @@ def _as_rational(number: ExactNumber) -> Fraction | None:
 
 
 def points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:
-    """The roots of the factor one by one where they are simple enough, or all of them as one."""
+    """The roots of the factor one by one (degree 1, or degree 2 at a regular place), else all together."""
     p = place.factor
     if place.degree == 1:
         return [SingularPoint(place, -p[0])]

@@ -1,10 +1,10 @@
-"""Case 2: omega of degree 2.  The equation is known to be irreducible.
+"""Case 2: omega of degree 2, for an irreducible equation.
 
 An imprimitive group permutes two lines, so (y1 y2)^2 is a rational invariant F of degree 4.  If the invariants of degree 4
 have dimension 1, F is it.  Dimension 2 belongs to the quaternion group of order 8, which permutes three pairs of lines: the
 squares F1 + lambda F2 are the members that are proportional to their Hessians, for three values of lambda.
 
-Case 3: omega of degree 4, 6 or 12.  The equation is known to be irreducible and not imprimitive, and Fuchsian.
+Case 3: omega of degree 4, 6 or 12, for a Fuchsian equation that is neither reducible nor imprimitive.
 
 The binary tetrahedral, octahedral and icosahedral groups are told apart by their invariants of least degree: F6, F8, F12
 [Klein; Singer & Ulmer, J. Symb. Comp. 16 (1993)].  The forms of Kovacic's degrees 4, 6, 12 are semi-invariants:

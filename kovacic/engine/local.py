@@ -152,7 +152,8 @@ def irregular_difference_squared(place: Place) -> Poly:
 class ModularChart:
     """The equation modulo p in a coordinate t in which the chosen place is t = 0: y'' = num/den y, with D as in `Problem`.
 
-    `growth` bounds deg A - deg P for omega = A / (D P): deg D - 1, or more if infinity is irregular.
+    `growth` bounds deg A - deg P for omega = A / (D P): deg D - 1, or more if infinity is irregular.  `root` is x at t = 0;
+    `inverted` says that t = 1/x.
     """
 
     num: Any

@@ -55,7 +55,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Images:
-    """A fraction modulo primes, each computed once for all places that ask for it."""
+    """A fraction modulo primes, each image computed once for all places."""
 
     num: Poly
     den: Poly

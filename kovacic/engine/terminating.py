@@ -2,8 +2,8 @@
 
 Kovacic's families give every theta that omega = theta + P'/P can have, with the degree of P.  About a suitable point the
 equation D P'' + 2 R P' + Z P = 0, R = D theta, is often a relation between two coefficients of P alone, as that of Hermite's,
-Laguerre's and Jacobi's polynomials, and what becomes of these with a power of x for x.  Whether it ends in a polynomial is
-told by the roots of its two factors, whatever the degree; see `kovacic.algebra.recurrence`.
+Laguerre's and Jacobi's polynomials, and of these with x replaced by a power of x.  The roots of its two factors decide
+whether it ends in a polynomial, whatever the degree; see `kovacic.algebra.recurrence`.
 """
 
 from __future__ import annotations

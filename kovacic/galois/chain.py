@@ -80,7 +80,7 @@ class Model:
 def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
     """f with the divisor k D, and the holomorphic rest of k l sqrt(H) dx - df/f; None if k D isn't principal.
 
-    None, too, where coefficients become so long that it won't be: those of a torsion class stay short.
+    Also None if the coefficients become too long for a torsion class, whose coefficients stay short.
     """
     model = model_of(H)
     l = lcm(*(residue.denominator for _, residue in model.poles))  # noqa: E741 - as in the module's text
@@ -175,6 +175,7 @@ def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
         for (points, _), N in zip(model.poles, multiples, strict=True):
             if N >> digit & 1:
                 total = total.plus(points, model.h)
+        # total - (a smaller divisor) is that of a - b y, up to points at infinity and functions of t.
         total, found = _small_divisor(model, total)
         if total.u.height_bits() > _LARGEST_HEIGHT:
             return None

@@ -129,7 +129,7 @@ class Jacobian:
 
 
 def _key(divisor: Divisor) -> tuple[Any, ...]:
-    """The coefficients, which FLINT's polynomials can be told by in a dictionary."""
+    """A dictionary key for a divisor: FLINT's polynomials are unhashable."""
     return tuple(divisor.u), tuple(divisor.v)
 
 

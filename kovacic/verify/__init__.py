@@ -12,7 +12,7 @@ S and a `Decision` go in, a `Verification` comes out.  Read `verify` here first,
 
 With the search the kernel shares the arithmetic of polynomials and rational functions over the fields, with factoring and
 square roots of constants, both of which it proves again; and the classes in which claims are written down.
-Everything else is written here, in the plainest way, and a contract in pyproject.toml forbids to import it.
+Everything else is written again here, as plainly as possible; a contract in pyproject.toml forbids importing it.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _claimed_exclusions(inspector: Inspector, decision: Decision) -> list[Check]
 
 
 def _claimed_solution(inspector: Inspector, decision: Decision) -> list[Check]:
-    """The polynomial of omega and the forms; there are none beside "no" and "undecided"."""
+    """Checks of the polynomial of omega and of the forms; "no" and "undecided" must come without any."""
     riccati = decision.riccati
     form = decision.semi_invariant
     series = decision.series

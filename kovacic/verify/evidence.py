@@ -190,7 +190,7 @@ class Inspector:
 
     @cached_property
     def numbers_of_series(self) -> tuple[int, int] | None:
-        """How many theta are possible where P has a recurrence of two terms, and how many have a P; None if that isn't told."""
+        """The number of possible theta, and of those with a P, by recurrences of two terms; None if these don't decide."""
         return numbers_of_series(self.S, self.points)
 
     @property

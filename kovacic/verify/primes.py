@@ -96,7 +96,7 @@ class AtValues(Homomorphism):
 
 @dataclass(frozen=True)
 class AtRoot(Homomorphism):
-    """K(c) -> F_p: a homomorphism of K, and for c a simple root of the image of its polynomial."""
+    """K(c) -> F_p: a homomorphism of K, and for c a simple root of the image of its polynomial; `level`, the height of K(c)."""
 
     base: Homomorphism
     root: int
@@ -157,7 +157,7 @@ def homomorphisms(field: Field) -> Iterator[Homomorphism]:
 
 
 def roots_modulo(polynomial: Poly, h: Homomorphism) -> list[int]:
-    """The simple roots of the image of a polynomial, in increasing order; none where the image loses its degree."""
+    """The simple roots of the image of a polynomial, in increasing order; empty if the image loses its degree."""
     try:
         image = h.keeping_degree(polynomial)
     except BadPrimeError:

@@ -1,4 +1,4 @@
-"""Power series modulo a prime, in the plainest way, for recomputing the negative claims.
+"""Power series modulo a prime, by the plainest methods, for recomputing the negative claims.
 
 A series to `count` terms is an `nmod_poly` of degree below `count`.
 """

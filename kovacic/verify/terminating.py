@@ -84,7 +84,7 @@ def solves(S: RatFunc, series: TerminatingSeries) -> bool:
 
 
 def numbers_of_series(S: RatFunc, points: list[Point]) -> tuple[int, int] | None:
-    """How many theta leave a natural degree for P, and how many of these a P; None unless each is told by its recurrence."""
+    """The number of theta with a natural degree of P, and the number of these with a P; None unless recurrences decide all."""
     choices = []
     for point in points:
         found = _local_parts(point)
@@ -121,7 +121,7 @@ def _centres(points: list[Point], theta: RatFunc) -> list[Poly]:
 def _local_parts(point: Point) -> list[tuple[Poly, RatFunc]] | None:
     """The exponents at a point with the part of theta that belongs to each; None unless all numbers lie in the field of S.
 
-    For y'/y = polar + exponent/t + ..., t = x - c, that part is polar + exponent/t; at infinity, where it is said of
+    For y'/y = polar + exponent/t + ..., t = x - c, that part is polar + exponent/t; at infinity, where it refers to
     v(z) = z y(1/z), y'/y = 1/x - (v'/v)(1/x)/x^2, and the part is -polar(1/x)/x^2.
     """
     field = point.factor.field

@@ -191,7 +191,7 @@ def _half_difference(point: Point) -> Fraction | None:
     radicand = _radicand(point)
     if is_no_square(radicand, p):
         return None
-    # The factor beside the square root: 1/M for Delta; at an irregular point twice the residue of sqrt(S) over sqrt(N q).
+    # The cofactor of the square root: 1/M for Delta; at an irregular point twice the residue of sqrt(S) over sqrt(N q).
     if point.order == 2:
         scale = inverse(point.at_double_pole[1], p)
     else:
