@@ -146,13 +146,10 @@ class Atoms:
 
     def is_negative(self, value: Poly) -> bool:
         """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
-        number = value.field.rational_value(value)
-        if number is not None:
-            return number < 0
-        if isinstance(value, FunctionPoly):
-            known = self.own(self.constant(value)).is_negative
-            return value.is_written_with_minus if known is None else bool(known)
-        return bool(self.constant(value).is_negative)
+        if not isinstance(value, FunctionPoly):
+            return bool(self.constant(value).is_negative)
+        known = self.own(self.constant(value)).is_negative
+        return value.is_written_with_minus if known is None else bool(known)
 
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""

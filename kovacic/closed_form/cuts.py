@@ -105,13 +105,12 @@ def with_positive_factors(y: Expr, x: Expr, point: Expr) -> Expr:
 
     def in_factors(power: Expr) -> Expr:
         number, factors = sympy.factor_list(power.base)
-        signs = [-1 if is_seen_negative(f.subs(x, point)) else 1 for f, _ in factors]
-        number *= sympy.Mul(*(s**k for s, (_, k) in zip(signs, factors, strict=True)))
-        if not number.is_positive:
-            return power
-        return number**power.exp * sympy.Mul(
-            *((s * f) ** (k * power.exp) for s, (f, k) in zip(signs, factors, strict=True))
-        )
+        roots = []
+        for f, k in factors:
+            sign = -1 if is_seen_negative(f.subs(x, point)) else 1
+            number *= sign**k
+            roots.append((sign * f) ** (k * power.exp))
+        return number**power.exp * sympy.Mul(*roots) if number.is_positive else power
 
     return y.replace(
         lambda e: e.is_Pow and e.base.has(x) and e.base.is_polynomial() and not e.exp.is_Integer, in_factors

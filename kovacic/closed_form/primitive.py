@@ -227,7 +227,7 @@ def _with_rational_part(
 
 
 def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
-    """Of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
+    """The denominator of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
     den = E.field.poly([1])
     of_root = [(E.field.poly([0, 1]), 0)] if alpha and E.den[0] else []
     for p, m in (*E.field.factor(E.den), *of_root):
