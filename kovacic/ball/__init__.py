@@ -1,8 +1,7 @@
 """The ball on the sphere: Woronetz's equations, Theorems 1 and 2 by the engine, and the motion.
 
-In goes a body, `RollingBall(...).on_sphere(R1)`, or one ratio of the radii for all bodies, `InRoots(rho)`; out come its
-equations (`derivation`, from the definitions), the closed forms of omega_3 and n (`theorems`), and its motion (`motion`,
-`picture`, imported by name, for they need NumPy).  Read `body` first.
+A body is `RollingBall(...).on_sphere(R1)`, or `InRoots(rho)` for all bodies with one ratio of the radii.  Of it there are the
+equations (`derivation`), closed forms (`theorems`) and the motion (`motion`, `picture`, which need NumPy).  Read `body` first.
 """
 
 from kovacic.ball.body import BallOnSphere, InRoots, RollingBall, U, X

@@ -6,8 +6,7 @@ inertia; R1 radius of the fixed sphere (negative: the ball rolls inside; infinit
 In x = cos u equation (11) becomes (12), and (13) is its normal form [Kuleshov & Katasonova 2018]:
     (12)  D omega_3'' + (3/2) D' omega_3' + l (1 - rho^2) omega_3 = 0,
     (13)  y'' = S y,  y = D^(3/4) omega_3,  S = l (1 + 2 rho^2)/(2 D) - 3 D'^2/(16 D^2).
-`kovacic.ball.derivation` derives and prints them all.  D >= A1 A3 > 0 on [-1, 1] for a possible body: the roots x1, x2 of D,
-the singular points of (12), are never reached.
+D >= A1 A3 > 0 on [-1, 1] for a possible body: the roots x1, x2 of D, the singular points of (12), are never reached.
 """
 
 from __future__ import annotations
@@ -26,8 +25,7 @@ from kovacic.reading import symbolic
 from kovacic.reading.read import read_input
 
 Quantity: TypeAlias = "int | Fraction | str | sp.Expr"
-U, X = sp.symbols("u x")
-x1, x2, A1, A3 = sp.symbols("x1 x2 A1 A3")
+U, X, x1, x2, A1, A3 = sp.symbols("u x x1 x2 A1 A3")
 #: For numbers and potentials as text: SymPy's functions are recursive, and its integers unbounded.
 BALL_LIMITS = Limits(text_length=500, digits=100, exponent=100, bits=500)
 read_short = partial(symbolic.read_expression, limits=BALL_LIMITS)
@@ -37,15 +35,11 @@ def exact_quantity(value: Quantity, name: str) -> sp.Expr:
     """An exact real number, or an expression in symbols, without their assumptions; text is a number ("0.25", "sqrt(2)").
 
     Raises `InputError` for anything else, and `LimitExceeded` for numbers of more than 500 bits.
-
-    >>> exact_quantity("0.25", "m"), exact_quantity("sqrt(3 + 2*sqrt(2)) - sqrt(2)", "m")
-    (1/4, 1)
     """
     if isinstance(value, str):
         result = read_short(value, what=f"the number {name}", names={})
     elif is_rational_number(value):
-        number = exact_real(value, name)
-        result = sp.Rational(number.numerator, number.denominator)
+        result = sp.Rational(exact_real(value, name))
     elif isinstance(value, sp.Expr) and not value.has(sp.Float):
         result = value.xreplace({symbol: sp.Symbol(symbol.name) for symbol in value.free_symbols})
     else:
@@ -79,9 +73,6 @@ def sign(value: sp.Expr) -> int | None:
     """1, 0 or -1; None for an expression with symbols.
 
     Raises `InputError` for a number that isn't algebraic and can't be told from zero.
-
-    >>> sign(sp.sqrt(5 + 2 * sp.sqrt(6)) - sp.sqrt(2) - sp.sqrt(3))
-    0
     """
     value = in_lowest_form(value)
     if not value.is_number:
@@ -151,17 +142,12 @@ class RollingBall:
         return self.m, self.R, self.a, self.A1, self.A3
 
     def on_sphere(self, R1: Quantity) -> BallOnSphere:
-        """The ball on a sphere, or inside one.
+        """The ball on a sphere, or inside one; raises `InputError` for a ball that doesn't fit inside.
 
         Parameters
         ----------
         R1 : number, str or sympy.Expr
             The radius: R1 > 0, or R1 < -R for a ball inside of it.
-
-        Raises
-        ------
-        InputError
-            For R1 = 0, and for a ball that doesn't fit inside.
         """
         radius = exact_quantity(R1, "R1")
         if radius == 0:

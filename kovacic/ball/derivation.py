@@ -7,9 +7,8 @@ its outward normal.  `PRINTED` has the paper's formulas under its numbers (1) to
 The derivation holds for all values of the parameters.  The two velocities of the contact point in the frame (e_u, e_v, e_n)
 agree (rolling without slipping): (2).  The angular velocity is that of the frame in space, given by (u1, v1, theta), minus that
 in the ball, given by (u, v): (4), (5).  The equations of motion (7) are d'Alembert's principle for the velocities
-u', v', n that rolling leaves free; the rest follows by elimination.  `residuals` are the differences between printed and
-derived formulas, and `holds` decides that they vanish, in the engine's field of rational functions.  The accelerations are
-unique, since the matrix of K22, K23, K33 is positive definite.
+u', v', n that rolling leaves free; the rest follows by elimination.  The accelerations are unique, since the matrix of K22,
+K23, K33 is positive definite.
 P. Woronetz, Math. Ann. 70 (1911) 410-453; A. S. Kuleshov & D. V. Katasonova (2018).
 """
 
@@ -19,6 +18,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
+from itertools import chain
 from typing import Any
 
 import sympy as sp
@@ -35,10 +35,9 @@ u, x = U, X
 m, R, a, R1, D = sp.symbols("m R a R1 D")
 v, theta, u1, v1, n, w3 = sp.symbols("v theta u1 v1 n omega_3")
 du, dv, dtheta, du1, dv1, ddu, ddv, dn = sp.symbols("u' v' theta' u1' v1' u'' v'' n'")
-sigma, tau = sp.symbols("sigma tau")
 #: The partial derivatives of the kinetic energy Theta, and dV/du.
 T_u, T_du, T_dv, T_n, V_u = sp.symbols("Theta_u Theta_u' Theta_v' Theta_n V_u")
-K11, K22, K23, K33 = sp.symbols("K11 K22 K23 K33")
+sigma, tau, K11, K22, K23, K33 = sp.symbols("sigma tau K11 K22 K23 K33")
 
 
 @dataclass(frozen=True)
@@ -57,10 +56,8 @@ def _paper_steps() -> Iterator[tuple[str, PaperStep]]:
     that is indented twice continues the one above.  In a formula z_u is the derivative by u of the z printed before, and u'
     is read as u_dot.
     """
-    symbols = {
-        *(m, R, a, R1, A1, A3, D, u, v, theta, u1, n, sigma, tau, K11, K22, K23, K33),
-        *(du, dv, dtheta, dv1, T_u, T_du, T_dv, T_n, V_u, *sp.symbols("a1 b1 a2 b2")),
-    }
+    # The symbols of this module, and those of (9) and (10).
+    symbols = [*(z for z in globals().values() if isinstance(z, sp.Symbol)), *sp.symbols("a1 b1 a2 b2")]
     names = {symbol.name.replace("'", "_dot"): symbol for symbol in symbols}
     text = (files(__package__) / "paper.txt").read_text(encoding="utf-8").strip()
     for step in re.split(r"\n(?! )", text):
@@ -93,14 +90,10 @@ def _turning(frame: Any, clock: Mapping[sp.Symbol, Any]) -> Any:
     return sp.Matrix([W[2, 1], W[0, 2], W[1, 0]])
 
 
-def _surface() -> Any:
-    """The printed surface, from the centre of mass."""
-    return sp.Matrix([PRINTED["8"][name] for name in "xyz"])
-
-
-def _direction_cosines() -> Any:
-    """The printed direction cosines: e_u, e_v, e_n as columns in the axes of the ball."""
-    return sp.Matrix(3, 3, [PRINTED["1"][f"c{column}{row}"] for row in (1, 2, 3) for column in (1, 2, 3)])
+def _surface_and_frame() -> tuple[Any, Any]:
+    """The printed surface from the centre of mass, and e_u, e_v, e_n as columns in the axes of the ball."""
+    c = sp.Matrix(3, 3, lambda i, j: PRINTED["1"][f"c{j + 1}{i + 1}"])
+    return sp.Matrix([PRINTED["8"][name] for name in "xyz"]), c
 
 
 _BALL_CLOCK = {u: du, v: dv}
@@ -110,7 +103,7 @@ _SPHERE_CLOCK = {u1: du1, v1: dv1, theta: dtheta}
 def _kinematics() -> Iterator[tuple[str, list[Any]]]:
     """(8), (1), (2), (5), (4): the surface is a sphere; its fundamental forms; the direction cosines; rolling."""
     forms, five = PRINTED["8"], PRINTED["5"]
-    r, c = _surface(), _direction_cosines()
+    r, c = _surface_and_frame()
     r_u, r_v = r.diff(u), r.diff(v)
     e_u, e_v, e_n = (c[:, k] for k in range(3))
     from_centre = r - sp.Matrix([0, 0, a])
@@ -135,21 +128,16 @@ def _kinematics() -> Iterator[tuple[str, list[Any]]]:
 
 def _dynamics() -> Iterator[tuple[str, list[Any]]]:
     """(3) with (6), and (7)."""
-    five = PRINTED["5"]
-    K = PRINTED["6"]
-    r, c = _surface(), _direction_cosines()
+    five, K = PRINTED["5"], PRINTED["6"]
+    r, c = _surface_and_frame()
     energy = K["K11"] * du**2 + K["K22"] * dv**2 + 2 * K["K23"] * dv * n + K["K33"] * n**2  # 2 Theta
-    # (3) and (4), in the axes of the ball.
-    omega = sp.Matrix([PRINTED["4"][f"omega_{i}"] for i in (1, 2, 3)])
-    omega = omega.xreplace({tau: five["tau"], sigma: five["sigma"]})
-    w = omega.cross(r)
-    yield "(3), (6)", [m * w.dot(w) + A1 * (omega[0] ** 2 + omega[1] ** 2) + A3 * omega[2] ** 2 - energy]
-    # (7), in the frame (e_u, e_v, e_n), where v doesn't occur.
+    # In the frame (e_u, e_v, e_n), where v doesn't occur; the velocity of the centre of mass is that of (3).
     omega = sp.Matrix([five["tau"] * dv, five["sigma"] * du, n])
     turning = omega + _turning(c, _BALL_CLOCK)
     axis = c.T * sp.Matrix([0, 0, 1])
     velocity = (c.T * r).cross(omega)
     momentum = A1 * omega + (A3 - A1) * omega.dot(axis) * axis
+    yield "(3), (6)", [m * velocity.dot(velocity) + momentum.dot(omega) - energy]
     clock = {u: du, du: ddu, dv: ddv, n: dn}
     force, moment = (rate(vector, clock) + turning.cross(vector) for vector in (m * velocity, momentum))
     at = {V_u: sp.S.Zero} | {name: energy.diff(z) / 2 for name, z in ((T_u, u), (T_du, du), (T_dv, dv), (T_n, n))}
@@ -165,22 +153,17 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
     in_K = {symbol: PRINTED["6"][symbol.name] for symbol in (K11, K22, K23, K33)}
     K = sp.Matrix([[K22, K23], [K23, K33]]).xreplace(in_K)
     momenta = {T_du: K11 * du, T_dv: K22 * dv + K23 * n, T_n: K33 * n + K23 * dv}
-    forces = (
-        sp.Matrix([PRINTED["7"][name] for name in ("dTheta_v'/dt", "dTheta_n/dt")]).xreplace(momenta).xreplace(in_K)
-    )
+    forces = sp.Matrix([PRINTED["7"][f"dTheta_{z}/dt"] for z in ("v'", "n")]).xreplace(momenta).xreplace(in_K)
     entries = sp.symbols("b1 a1 b2 a2")
     nine = sp.Matrix(2, 2, [PRINTED["9"][entry.name] for entry in entries]).xreplace(in_K)
-    ten = sp.Matrix(2, 2, [PRINTED["10"][f"{entry.name}'"] for entry in entries])
-    ten = ten.xreplace(dict(zip(entries, nine, strict=True)))
+    in_nine = dict(zip(entries, nine, strict=True))
+    ten = sp.Matrix(2, 2, [PRINTED["10"][f"{entry.name}'"].xreplace(in_nine) for entry in entries])
     speeds = sp.Matrix([dv, n])
     yield "(9)", list(forces - nine * speeds * du)
     # d/dt = u' d/du, and K' goes to the right-hand side.
     yield "(10)", list((ten - nine + K.diff(u)) * speeds)
-    p = {
-        name: value.xreplace({D: PRINTED["system"]["D"]})
-        for key in ("system", "11")
-        for name, value in PRINTED[key].items()
-    }
+    printed = PRINTED["system"] | PRINTED["11"]
+    p = {name: value.xreplace({D: printed["D"]}) for name, value in printed.items()}
     # v' from the third of (4), in which c23 = 0.
     speeds = sp.Matrix([(cos(u) * n - w3) / (PRINTED["5"]["tau"] * sin(u)), n])
     along = {u: 1, n: p["a1"] * n + p["a2"] * w3, w3: p["b1"] * n + p["b2"] * w3}
@@ -199,8 +182,7 @@ def _elimination() -> Iterator[tuple[str, list[Any]]]:
 
 def residuals() -> Iterator[tuple[str, list[Any]]]:
     """Expressions that vanish if the formulas are right: for each number in `PRINTED`, and for (12) and (13)."""
-    for part in (_kinematics, _dynamics, _elimination):
-        yield from part()
+    return chain(_kinematics(), _dynamics(), _elimination())
 
 
 def vanishes(expression: Any) -> bool:
@@ -243,16 +225,14 @@ def named(name: str, value: sp.Expr) -> Math:
 
 def equations_of(place: Rolling) -> dict[str, Math]:
     """a1, a2, b1, b2, and the equations 11, 12 and 13 with the values of one ball, or in the roots."""
-    d1, d2 = place.second_order
-    in_u = [part.subs(x, cos(u)) for part in (*place.linear_system, d1, d2)]
-    found = {name: named(name, part * sin(u)) for name, part in zip(("a1", "a2", "b1", "b2"), in_u, strict=False)}
+    *system, d1, d2 = (part.subs(x, cos(u)) for part in (*place.linear_system, *place.second_order))
+    found = {name: named(name, part * sin(u)) for name, part in zip(("a1", "a2", "b1", "b2"), system, strict=True)}
     factor = rf"\left({sp.latex(place.S)}\right)" if place.S.is_Add else sp.latex(place.S)
-    is_zero = place.S == 0
-    normal_form = Math(f"y''(x) = {0 if is_zero else f'({place.S})*y(x)'}", f"y'' = {0 if is_zero else f'{factor} y'}")
+    normal_form = Math(f"y''(x) = ({place.S})*y(x)", f"y'' = {factor} y") if place.S else Math("y''(x) = 0", "y'' = 0")
     return {
         **found,
-        "11": second_order_equation(-sin(u) * in_u[4] - cos(u) / sin(u), sin(u) ** 2 * in_u[5], u),
-        "12": second_order_equation(d1, d2),
+        "11": second_order_equation(-sin(u) * d1 - cos(u) / sin(u), sin(u) ** 2 * d2, u),
+        "12": second_order_equation(*place.second_order),
         "13": normal_form,
     }
 
@@ -264,9 +244,8 @@ def explained(*, format: str = "text") -> str:
     'A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.'
     """
     in_roots = equations_of(InRoots(R / R1))
-    blocks: list[Block] = [
-        say("A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre.")
-    ]
+    body = "A ball of radius R rolls on a sphere of radius R1, its centre of mass at the distance a from its centre."
+    blocks: list[Block] = [say(body)]
     for key, step in PAPER_STEPS:
         rows = [*step.relations, *(named(name, value) for name, value in step.formulas.items())]
         if key in ("12", "13"):

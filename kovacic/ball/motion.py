@@ -39,8 +39,7 @@ _MOST_EVALUATIONS = 300_000
 _MOST_OSCILLATIONS = 100_000
 #: A motion with a smaller `unsteadiness` is steady.
 _STEADY = 1e-12
-#: A motion whose `approach` is smaller is asymptotic, and followed for as long as two integrations, with tolerances that differ
-#: by a factor of ten, agree to this accuracy.
+#: A motion whose `approach` is smaller is asymptotic, and followed while integrations with tolerances t and 10 t agree to this.
 _ASYMPTOTIC = 1e-6
 #: The integrator's relative tolerance, the least that SciPy accepts.
 _RELATIVE_TOLERANCE = 2.3e-14
@@ -89,9 +88,8 @@ def as_float(value: Any, name: str, *, least: float = 0.0) -> float:
     """The value as a float; text and SymPy's numbers are read exactly.  Raises `InputError` for symbols, and out of range."""
     number = sp.Float(value) if isinstance(value, float | np.floating) else exact_quantity(value, name)
     if not number.is_number or (number != 0 and not least <= abs(float(number)) <= _LARGEST_NUMBER):
-        hint = (
-            f"numbers are needed; choose units that bring them between {1 / _LARGEST_NUMBER:g} and {_LARGEST_NUMBER:g}"
-        )
+        span = f"between {1 / _LARGEST_NUMBER:g} and {_LARGEST_NUMBER:g}"
+        hint = f"numbers are needed; choose units that bring them {span}"
         raise InputError(f"{name} = {value} isn't a number that a motion can start with", hint=hint)
     return float(number)
 
@@ -100,9 +98,6 @@ def potential_of(value: Potential) -> sp.Expr:
     """V as a SymPy expression in u; floats are their binary values, decimals in text are exact.
 
     Raises `InputError` for anything but a real elementary function of u, and `LimitExceeded` if it is too long.
-
-    >>> potential_of("3/2*cos(u)")
-    3*cos(u)/2
     """
     if not isinstance(value, str | sp.Expr | float | int):
         raise InputError(f"the potential is text, a number or a SymPy expression, it can't be {value!r}")
@@ -181,23 +176,21 @@ class Dynamics:
 
         eta and zeta are turned by the hyperbolic angle rho sqrt(l) (xi - xi0), an ordinary one for l < 0.
         """
-
-        def half(x: Any) -> Any:  # D'/2
-            return self.m * self.R * ((self.A3 - self.A1) * self.R * x + self.A3 * self.a)
-
         weight = self.m * self.R**2 * self.A1
         root0, root = np.sqrt(self.D(x0)), np.sqrt(self.D(x))
-        eta0, zeta0 = omega_3 * root0, weight * n + half(x0) * omega_3
+        half0, half = (self.m * self.R * ((self.A3 - self.A1) * self.R * z + self.A3 * self.a) for z in (x0, x))  # D'/2
+        eta0, zeta0 = omega_3 * root0, weight * n + half0 * omega_3
         scale = np.sqrt(complex(self.m * self.R**2 * (self.A3 - self.A1))) or 1e-30 * root0  # the limit of l -> 0
         angle = 2 * self.rho * np.arctanh(scale * (x - x0) / (root + root0))
         even, odd = np.cosh(angle).real, np.sinh(angle)
         eta = eta0 * even - zeta0 * (odd / scale).real
         zeta = zeta0 * even - eta0 * (odd * scale).real
-        return eta / root, (zeta - half(x) * eta / root) / weight
+        return eta / root, (zeta - half * eta / root) / weight
 
 
-def unsteadiness(y: Array, f: Array, rate: float) -> Array:
+def unsteadiness(ball: Dynamics, force: Force, y: Array, rate: float) -> Array:
     """The distance of (omega, s) from turning uniformly about the axis, as in steady motions; at most about 1."""
+    f = np.array(ball.rates(force.slope, y))
     z = np.array([y[1] / rate, -y[0] / rate, y[4], -y[3]])  # turned by -90 degrees
     change = np.array([f[0] / rate, f[1] / rate, f[3], f[4], f[2] / rate, f[5]]) / rate
     square = (z * z).sum(0)
@@ -337,15 +330,15 @@ class Motion:
         instants = np.asarray(times, dtype=float)
         if not np.isfinite(instants).all():
             raise InputError("times must be finite")
+        count = np.floor(instants / self._cycle)
         if np.isfinite(self.determined):
-            end = f"{self.determined:.6g}"
+            count = np.zeros(instants.shape)
             if ((instants < 0) | (instants > self.determined)).any():
+                end = f"{self.determined:.6g}"
                 why = "it comes so near to an unstable steady motion that floats don't tell whether and when it turns"
                 hint = f"times from 0 to {end}, or a velocity at the start that differs by 1e-5 of itself"
                 lost = f"the motion is asymptotic, its digits are lost from t = {end} on: {why}\n  hint: {hint}"
                 raise LimitExceeded(lost, limit="digits")
-            return np.zeros(instants.shape), self._solution(instants.ravel()).reshape(18, *instants.shape)
-        count = np.floor(instants / self._cycle)
         if np.abs(count).max(initial=0) > _MOST_OSCILLATIONS:
             end = f"{_MOST_OSCILLATIONS} oscillations, to t = {_MOST_OSCILLATIONS * self._cycle:.6g}"
             raise LimitExceeded(f"a motion is followed for {end}", limit="time")
@@ -389,36 +382,28 @@ def solve_motion(
     before, after = (z[[0, 3]] + 1j * z[[1, 4]] for z in (y, turned))  # of omega and s, across the axis
     gain = float(np.angle((after * before.conj() * [rate**-2, 1.0]).sum()))
     turn = Rotation.from_matrix(turned[6:15].reshape(3, 3) @ _rotations(_AXIS, np.array(gain))).as_rotvec()
-    space = _contact_frame(ball, state) @ frame.T
-    return Motion(ball=ball, force=force, start=state, _gain=gain, _turn=turn, _space=space, **course)
-
-
-def _contact_frame(ball: Dynamics, state: MotionStart) -> Array:
-    """(e_u, e_v, e_r) at the start as columns in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1; the normals are opposite.
-
-    Inside a sphere e_u1, e_v1 are still the directions to the south and to the east, and the ball's normal is the sphere's.
-    """
+    # (e_u, e_v, e_r) at the start as columns in space: e_u = -sin(theta) e_u1 + cos(theta) e_v1; the normals are opposite.
+    # Inside a sphere e_u1, e_v1 are still the directions to the south and to the east, and the ball's normal is the sphere's.
     s, c = np.sin(state.theta), np.cos(state.theta)
     side = -1.0 if ball.kappa < 0 else 1.0
-    frame = np.array([[-s, side * c, 0.0], [c, side * s, 0.0], [0.0, 0.0, -side]])
-    return np.asarray(Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() @ frame) if ball.kappa else frame
+    in_space = np.array([[-s, side * c, 0.0], [c, side * s, 0.0], [0.0, 0.0, -side]])
+    if ball.kappa:
+        in_space = Rotation.from_euler("ZY", [state.v1, state.u1]).as_matrix() @ in_space
+    space = in_space @ frame.T
+    return Motion(ball=ball, force=force, start=state, _gain=gain, _turn=turn, _space=space, **course)
 
 
 def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, Any]:
     """Fields of `Motion`: one oscillation from y, some time of a steady motion, or an asymptotic one as far as determined."""
-
-    def distances(states: Array) -> Array:
-        return unsteadiness(states, np.array(ball.rates(force.slope, states)), rate)
-
     approach, determined, period = 1.0, np.inf, None
-    if float(distances(y)) < _STEADY:
+    if float(unsteadiness(ball, force, y, rate)) < _STEADY:
         solution = _integrate(ball, force, y, rate, turns=0)
         cycle = 10 / rate
         u = colatitude(y[3:6])
     else:
         solution = _integrate(ball, force, y, rate, turns=4)
         turns = solution.t_events[0]
-        distance = distances(solution.y)
+        distance = unsteadiness(ball, force, solution.y, rate)
         approach = float(distance.min() / distance.max())
         # x'' at two turning points: the period is known best between those where it is larger.
         p = solution.sol(turns[:2])
@@ -428,7 +413,7 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
         cycle = period = float(turns[start + 2] - turns[start])
         u = colatitude(p[3:6])
     if approach < _ASYMPTOTIC:
-        rough = _integrate(ball, force, y, rate, turns=4, tolerance=10 * _RELATIVE_TOLERANCE)
+        rough = _integrate(ball, force, y, rate, turns=4, looser=10)
         # The last time up to which the two agree in omega and s: the rough one errs ten times as much.
         times = np.linspace(0.0, min(solution.t[-1], rough.t[-1]), 4000)
         scale = np.repeat([rate, 1.0], 3)[:, None]
@@ -437,29 +422,17 @@ def _follow(ball: Dynamics, force: Force, y: Array, rate: float) -> dict[str, An
         period = None
         cycle = determined = float(times[max(lost - 1, 0)])
         u = colatitude(solution.sol(np.array([0.0, *turns[turns < cycle], cycle]))[3:6])
-    return {
-        "_solution": solution.sol,
-        "_cycle": cycle,
-        "period": period,
-        "turning_points": (float(u.min()), float(u.max())),
-        "approach": approach,
-        "determined": determined,
-    }
+    turning_points = float(u.min()), float(u.max())
+    course = {"period": period, "turning_points": turning_points, "approach": approach, "determined": determined}
+    return course | {"_solution": solution.sol, "_cycle": cycle}
 
 
-def _integrate(
-    ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int, tolerance: float = _RELATIVE_TOLERANCE
-) -> Any:
-    """SciPy's solution from y, until x' has been 0 `turns` times; without any, for the time 10/rate.
-
-    Raises `LimitExceeded` after too many evaluations, and where the potential isn't smooth.
-    """
-    count = 0
+def _integrate(ball: Dynamics, force: Force, y: Array, rate: float, *, turns: int, looser: int = 1) -> Any:
+    """SciPy's solution from y, until x' has been 0 `turns` times; without any, for the time 10/rate."""
+    evaluations = iter(range(_MOST_EVALUATIONS))
 
     def rates(_: float, state: Array) -> list[Any]:
-        nonlocal count
-        count += 1
-        if count > _MOST_EVALUATIONS:
+        if next(evaluations, None) is None:
             why = "it is almost asymptotic, or the potential isn't smooth"
             said = f"the motion doesn't turn within {_MOST_EVALUATIONS} evaluations of its equations: {why}"
             raise LimitExceeded(said, limit="evaluations")
@@ -471,7 +444,7 @@ def _integrate(
     speed.terminal = turns or False  # type: ignore[attr-defined]
     scale = np.repeat([rate, 1.0, ball.R], [3, 12, 3])
     end = (1e12 if turns else 10) / rate
-    errors = {"rtol": tolerance, "atol": 1e-16 * (tolerance / _RELATIVE_TOLERANCE) * scale}
+    errors = {"rtol": looser * _RELATIVE_TOLERANCE, "atol": looser * 1e-16 * scale}
     events = speed if turns else None
     result = solve_ivp(rates, (0.0, end), y, events=events, dense_output=True, method="DOP853", **errors)
     if not result.success or (turns and len(result.t_events[0]) < turns):

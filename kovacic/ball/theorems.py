@@ -70,11 +70,6 @@ class BallSolution:
         """True if omega, y, n and omega_3, as printed, satisfy (13) and the `linear_system`.
 
         By substitution at one point and for one value of each symbol, to 30 digits in interval arithmetic.
-
-        Parameters
-        ----------
-        place : Rolling
-            The ball of this solution.
         """
         roots = {} if isinstance(place, InRoots) else dict(zip((x1, x2), place.roots, strict=False))
 
@@ -160,10 +155,7 @@ def _simplest_solution(place: Rolling) -> tuple[sp.Expr, sp.Expr, tuple[sp.Expr,
 
 
 def _solution_in_roots(place: InRoots) -> BallSolution:
-    """For an integer N both solutions are polynomials times powers of sqrt(x - x1) and sqrt(x - x2).
-
-    Beyond |N| = 12 the polynomials fill pages: omega is written as a quotient, and the solutions as powers.
-    """
+    """For an integer N, up to `_MOST_EXPANDED`, polynomials times powers of sqrt(x - x1) and sqrt(x - x2)."""
     alpha, beta = X - x1, X - x2
     rho = place.ratio
     N = sp.Abs(2 * rho)
