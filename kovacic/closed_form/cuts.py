@@ -81,8 +81,7 @@ def arguments_with_cuts(y: Expr) -> dict[Expr, Expr]:
 
 def all_turned(y: Expr, x: Expr, point: Expr, own: Own = sympy.sympify) -> Expr:
     """With log(-u), (-u)^e for arguments u that are negative at the point; I_nu(z), K_nu(z) for J_nu(i z), Y_nu(i z)."""
-    negative = negative_arguments(arguments_with_cuts(y), x, point, own)
-    turned = {e: (-u) ** e.exp for e, u in negative.items() if e.is_Pow}
+    turned = {e: (-u) ** e.exp for e, u in _negative_arguments(y, x, point, own).items() if e.is_Pow}
     roots = dict(turned)
     for e in y.atoms(sympy.log, sympy.Ci, BesselBase):
         *order, u = e.args
@@ -117,22 +116,19 @@ def with_positive_factors(y: Expr, x: Expr, point: Expr) -> Expr:
     )
 
 
-def negative_arguments(
-    arguments: Mapping[Expr, Expr], x: Expr, point: Expr, own: Own = sympy.sympify
-) -> dict[Expr, Expr]:
+def _negative_arguments(y: Expr, x: Expr, point: Expr, own: Own) -> dict[Expr, Expr]:
     """Those of the `arguments_with_cuts` that are negative at the point, in the user's symbols that `own` puts in."""
-    return {e: u for e, u in arguments.items() if _is_negative(u, x, point, own)}
+    return {e: u for e, u in arguments_with_cuts(y).items() if _is_negative(u, x, point, own)}
 
 
 def _is_negative(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
     """As `_is_below_zero`, or with positive numbers for letters of unknown signs."""
-    if _is_below_zero(u, x, point, own):
-        return True
-    return u.has(x) and u.free_symbols != {x} and is_seen_negative(own(u.subs(x, point)))
+    has_letters = u.has(x) and u.free_symbols != {x}
+    return _is_below_zero(u, x, point, own) or (has_letters and is_seen_negative(own(u.subs(x, point))))
 
 
 def _is_below_zero(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
-    """By the ball of a number, or by SymPy where that has no sign."""
+    """True if u is negative at the point: by its ball, or by SymPy where that has no sign."""
     if u.free_symbols == {x} and point.is_Rational:
         with suppress(NotImplementedError):
             value = jet(u, x, acb(fmpq(int(point.p), int(point.q))))[0]
@@ -175,7 +171,7 @@ def real_at(
     """Solutions with fewer arguments on cuts at the place, turned or from `anew`; the given pair if there are none."""
 
     def left(found: Sequence[Expr]) -> int:
-        return len(negative_arguments(arguments_with_cuts(sympy.Tuple(*found)), x, place, own))
+        return len(_negative_arguments(sympy.Tuple(*found), x, place, own))
 
     if not place.is_real or not left(pair):
         return pair
