@@ -82,12 +82,6 @@ class Limits:
                 given = whole(given, f"the limit {field.name}")
             object.__setattr__(self, field.name, given)
 
-    def demand(self, name: str, value: int, what: str) -> None:
-        """Raise `LimitExceeded` if a value is above the limit of this name; `what` describes it, with {} for the value."""
-        most = getattr(self, name)
-        if value > most:
-            raise LimitExceeded(f"{what.format(in_a_message(value))}, above the limit of {most}", limit=name)
-
 
 def seconds_of(given: Any, name: str) -> float | None:
     """A time as a float, infinity included, or None.  Raises `InputError` for anything else."""
@@ -100,6 +94,13 @@ def seconds_of(given: Any, name: str) -> float | None:
 
 
 DEFAULT_LIMITS = Limits()
+
+
+def demand(limits: Limits, name: str, value: int, what: str) -> None:
+    """Raise `LimitExceeded` if a value is above the limit of this name; `what` describes it, with {} for the value."""
+    most = getattr(limits, name)
+    if value > most:
+        raise LimitExceeded(f"{what.format(in_a_message(value))}, above the limit of {most}", limit=name)
 
 
 def limits_of(given: Any) -> Limits:

@@ -32,6 +32,8 @@ class Exit(IntEnum):
     INTERRUPTED = 130
     PIPE_CLOSED = 141
 
+    __repr__ = int.__repr__
+
 
 #: By name: the module of kovacic.cli that has the click command of this name, and its line of help.
 COMMANDS = {

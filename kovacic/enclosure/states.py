@@ -115,7 +115,7 @@ def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, d
 
 def _rounded(work: float) -> int:
     """The next power of two, so that targets of about the same price share the results of a search."""
-    return 1 << int(work).bit_length()
+    return 1 << int(min(work, 2.0**62)).bit_length()
 
 
 def _foreseen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> float:

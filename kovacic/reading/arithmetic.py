@@ -19,7 +19,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.errors import LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Limits, check_time
+from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, demand
 
 T = TypeVar("T")
 
@@ -56,7 +56,7 @@ class Arithmetic:
         self.limits = limits
 
     def integer(self, text: str) -> int:
-        self.limits.demand("digits", len(text.lstrip("+-")), "{} digits")
+        demand(self.limits, "digits", len(text.lstrip("+-")), "{} digits")
         return int(fmpz(text.lstrip("+")))  # Python reads integers of at most 4300 digits
 
     def constant(self, numerator: Any, denominator: Any = 1) -> Value:
@@ -139,7 +139,7 @@ class Arithmetic:
     def power(self, base: Value, exponent: Value | int) -> Value:
         """`base ** exponent`; raises `NotAnInteger` if the exponent isn't an integer constant."""
         n = self._integer_of(exponent)
-        self.limits.demand("exponent", abs(n), "an exponent {}")
+        demand(self.limits, "exponent", abs(n), "an exponent {}")
         if isinstance(base, Monomial) and n > 0:
             height = max(abs(base.coefficient.p), base.coefficient.q)
             self._check(base.power * n, n * int(height - 1).bit_length())
@@ -201,8 +201,8 @@ class Arithmetic:
         return base**n
 
     def _check(self, degree: int, bits: int) -> None:
-        self.limits.demand("degree", degree, "a degree of up to {}")
-        self.limits.demand("bits", bits, "coefficients of up to {} bits")
+        demand(self.limits, "degree", degree, "a degree of up to {}")
+        demand(self.limits, "bits", bits, "coefficients of up to {} bits")
         most = _TOTAL_FACTOR * self.limits.bits
         if (degree + 1) * bits > most:
             size = f"up to {degree + 1} coefficients of up to {bits} bits"
@@ -222,7 +222,7 @@ class Arithmetic:
             terms, of_factor = factor.extent()
             sparse *= comb(n + terms - 1, n)
             degrees = [n * d + e for d, e in zip_longest(of_factor, degrees, fillvalue=0)]
-        self.limits.demand("terms", min(sparse, prod(d + 1 for d in degrees)), "up to {} terms")
+        demand(self.limits, "terms", min(sparse, prod(d + 1 for d in degrees)), "up to {} terms")
 
     def _integer_of(self, exponent: Value | int) -> int:
         if isinstance(exponent, int):

@@ -19,7 +19,7 @@ from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, square_part
 from kovacic.equation import ENERGY, EULER
 from kovacic.errors import LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, demand
 from kovacic.reading.arithmetic import PRINTED_BITS
 
 T = TypeVar("T")
@@ -61,7 +61,7 @@ class Constants:
     def parameter(self, name: str) -> Poly:
         """The parameter of this name.  Raises `Enlarged` where it is new."""
         if name not in self.parameters:
-            self.limits.demand("parameters", len(self.parameters) + 1, "{} parameters or more")
+            demand(self.limits, "parameters", len(self.parameters) + 1, "{} parameters or more")
             raise Enlarged(replace(self, parameters=(*self.parameters, name)))
         field = self.field
         constant: Poly = field.ground.generator(name)  # type: ignore[attr-defined]
@@ -122,7 +122,7 @@ class Constants:
         if factor.degree == 1:
             return -factor[0]
         degree = factor.degree * self.numbers.absolute_degree
-        self.limits.demand("constants", degree, "constants in a field of degree {} over the rational numbers")
+        demand(self.limits, "constants", degree, "constants in a field of degree {} over the rational numbers")
         is_irreducible = factor.degree == equation.degree
         name = label if label and is_irreducible else "alpha"
         theta, root = adjoined_root(factor, target, name)

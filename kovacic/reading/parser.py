@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from kovacic.errors import InputError, LimitExceeded, NotRational, ParseError
+from kovacic.limits import check_time
 from kovacic.numbers.numerals import plain_text
 from kovacic.reading.lexer import DERIVATIVES, PRIME, SUPERSCRIPT_DIGITS, unexpected
 from kovacic.reading.notations import ParserTokens
@@ -142,6 +143,7 @@ class _Parser:
     def read(self) -> Any:
         operand_is_next = True
         for k, kind in enumerate(self.kinds):
+            check_time()
             table = _PREFIX if operand_is_next else _INFIX
             if kind not in table:
                 raise self.syntax_error(k)

@@ -11,7 +11,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.equation import DEFAULT_VARIABLE, PI, UNKNOWN, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear, NotRational
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, demand
 from kovacic.numbers.exact import exact_real, exact_text, is_rational_number
 from kovacic.reading.naming import Source
 from kovacic.reading.parser import excerpt
@@ -168,7 +168,7 @@ def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limi
     if isinstance(coefficients, str | bytes) or not hasattr(coefficients, "__iter__"):
         hint = "give two sequences of numbers, low powers first: ([3, 0, 1], [1]) is x^2 + 3"
         raise InputError(f"the {what} is {type(coefficients).__name__!r}, not a sequence of coefficients", hint=hint)
-    limits.demand("degree", len(coefficients) - 1, f"the {what} has coefficients up to the degree {{}}")
+    demand(limits, "degree", len(coefficients) - 1, f"the {what} has coefficients up to the degree {{}}")
     exact = []
     for power, value in enumerate(coefficients):
         if not is_rational_number(value):
@@ -179,5 +179,5 @@ def _coefficient_polynomial(coefficients: Sequence[Any], what: str, limits: Limi
             raise NotRational(said, hint=hint)
         exact.append(exact_real(value, f"the coefficient of power {power}"))
     polynomial = QQ.poly(exact)
-    limits.demand("bits", polynomial.height_bits(), f"the {what} has coefficients of {{}} bits")
+    demand(limits, "bits", polynomial.height_bits(), f"the {what} has coefficients of {{}} bits")
     return polynomial

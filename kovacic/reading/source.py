@@ -12,7 +12,7 @@ from typing import Any
 
 from kovacic.equation import PI, UNKNOWN, Parsed, lowered, over
 from kovacic.errors import InputError, NotLinear, NotRational, ParseError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, demand
 from kovacic.reading.arithmetic import ONE, VARIABLE, Arithmetic
 from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
@@ -39,7 +39,7 @@ def source_of(
     if not isinstance(given, str | Paste):
         return _sympy_source(given, variable, unknown, equation)._replace(limits=limits)
     if isinstance(given, str):
-        limits.demand("text_length", len(given), "the text has {} characters")
+        demand(limits, "text_length", len(given), "the text has {} characters")
         given = Paste(given)
         values = given.scans("condition")
         if values:

@@ -21,7 +21,7 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from kovacic.errors import InputError, LimitExceeded, NotLinear, NotRational, ParseError
-from kovacic.limits import DEFAULT_LIMITS, Limits
+from kovacic.limits import DEFAULT_LIMITS, Limits, demand
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.arithmetic import ONE, VARIABLE
 from kovacic.reading.dialects import tokenize
@@ -245,7 +245,7 @@ class SymbolicReader(RationalReader):
         self.what = what
 
     def read(self, text: str) -> Any:
-        self.arithmetic.limits.demand("text_length", len(text), f"{self.what} has {{}} characters")
+        demand(self.arithmetic.limits, "text_length", len(text), f"{self.what} has {{}} characters")
         tokens = tokenize(text)
         if len(tokens.kinds) == 1:
             raise ParseError(f"there is no expression: {self.what} is empty", text=text, position=0)
