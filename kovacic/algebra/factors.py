@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import reduce
 from operator import mul
 from typing import Any, NamedTuple
 
 from kovacic.algebra.poly import Poly
 from kovacic.limits import check_time
 
-#: Trees of products don't pay for fewer factors.
+#: Trees of remainders don't pay for fewer factors.
 _LEAST_FOR_A_TREE = 12
 
 
 def product(factors: Sequence[Poly]) -> Poly:
     """The product of at least one polynomial."""
-    return products(factors)[-1][0] if len(factors) >= _LEAST_FOR_A_TREE else reduce(mul, factors)
+    whole: Poly = products(factors)[-1][0]
+    return whole
 
 
 def products(factors: Sequence[Any]) -> list[list[Any]]:

@@ -92,8 +92,6 @@ def echelon_by_degree(polynomials: Sequence[Any]) -> list[Any]:
     if not polynomials:
         return []
     p = polynomials[0].modulus()
-    if len(polynomials) == 1:
-        return [polynomials[0] * pow(int(polynomials[0].leading_coefficient()), -1, p)]
     width = max(f.length() for f in polynomials)
     entries = [f[width - 1 - k] for f in polynomials for k in range(width)]
     reduced, rank = nmod_mat(len(polynomials), width, entries, p).rref()
