@@ -52,7 +52,7 @@ from kovacic.special.pullback import (
     ValueAndSlope,
     each,
     is_integer,
-    principal_root,
+    root_or_ball,
 )
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class Bessel(StandardEquation):
             n = -n
             r = -r
         half = fmpq(1, 2)
-        mu = principal_root(4 * M + 1) / 2
+        mu = root_or_ball(4 * M + 1) / 2
         order, factor = (mu, q) if q else (2 * mu, -r)
 
         def first(order: Any) -> StandardSolution:

@@ -50,7 +50,7 @@ from kovacic.special.writer import Wanted
 _STABLE_DIGITS = 30
 #: Characters that a term of a polynomial has at least, as + x**2.
 _TERM = 4
-#: Shorter pairs aren't asked: of the published ones none loses half of the digits, whatever its length.
+#: Characters up to which a pair counts as stable: of the published ones none loses half of the digits, whatever its length.
 _ALWAYS_STABLE = 400
 
 UNSTABLE = (
@@ -85,7 +85,7 @@ def best(forms: list[PairForm]) -> PairForm:
 def shortest(forms: Sequence[Any]) -> Any:
     """The preferred one of equal SymPy expressions: without an integral before those with one, then the shorter text.
 
-    Beside a step at a the shift x - a is read as one letter: sin(2*(x - 1)) H(x - 1) is shorter than sin(2*x - 2) H(x - 1).
+    With a step at a the shift x - a counts as one letter: sin(2*(x - 1)) H(x - 1) is shorter than sin(2*x - 2) H(x - 1).
     """
     forms = [*dict.fromkeys(forms)]
     if len(forms) == 1:
@@ -197,7 +197,7 @@ class _Equation:
         return self._form(pair, notes=(*atoms.notes,))
 
     def _form(self, pair: tuple[Any, Any], **known: Any) -> ClosedForm:
-        """A pair of which more may be known than that it was checked."""
+        """A checked pair, with further facts about it."""
         made = partial(build, self.S, self.decision, self.gauge)
         return ClosedForm(*pair, Symbol(self.variable), self.gauge, EXACT, build=made, **known)
 
@@ -222,7 +222,7 @@ class _Equation:
         ]
 
     def _source(self) -> Pullback | GaugeTransform | None:
-        """A pull-back of a standard equation with its actual parameters, if it is found soon."""
+        """A pull-back, or a gauge transform of one, of a standard equation with its actual parameters."""
         return find(self.S, self.budget, extended=False).pullback or find_transform(self.S, self.budget)
 
     def _special_forms(self, source: Pullback | GaugeTransform | None) -> list[PairForm]:
@@ -233,7 +233,7 @@ class _Equation:
         return [PairForm(FormKind.SPECIAL, 4 * written_length(parts), partial(self._in_special_functions, source))]
 
     def _in_special_functions(self, source: Pullback | GaugeTransform) -> ClosedForm | None:
-        """With y1 unchanged if it is elementary and short; None if the two aren't known to be independent."""
+        """The pair, with y1 kept if it is elementary and short; None if the two aren't known to be independent."""
         found = pair_for(Wanted(self.S, self.gauge, self.variable, joined=True), source)
         if found is None:
             return None
@@ -256,17 +256,17 @@ class _Equation:
         return self._form(chosen, undefined=found.undefined, place=place)
 
     def _written_best(self, forms: list[PairForm]) -> tuple[PairForm, ClosedForm]:
-        """The preferred one, written: its true length, and whether an integral is left, may be other than was thought.
+        """The preferred form by its true length and kind, which are known once it is written.
 
-        Beside a long one the shortest is written, too: its true length is the measure.
+        With a long one the shortest is written, too, since its true length is the measure.
         """
         while True:
-            chosen = best(forms)
-            form = chosen
-            if chosen.pair is not None and chosen.length > MOST_CHARACTERS:
-                form = min(forms, key=lambda other: other.length)
-            if chosen.pair is not None and form.pair is not None:
-                return chosen, chosen.pair
+            chosen = form = best(forms)
+            if chosen.pair is not None:
+                if chosen.length > MOST_CHARACTERS:
+                    form = min(forms, key=lambda other: other.length)
+                if form.pair is not None:
+                    return chosen, chosen.pair
             forms.remove(form)
             pair = form.write()
             if pair is not None:
@@ -286,7 +286,7 @@ class _Equation:
 
 
 def _length(y: Any) -> int:
-    """In characters; more than any form has where an integer is longer than Python writes."""
+    """Length in characters; `maxsize` if an integer is too long for Python to write."""
     try:
         return len(str(y))
     except ValueError:
@@ -294,7 +294,7 @@ def _length(y: Any) -> int:
 
 
 def _middle_of_the_domain(den: RationalPoly) -> Any:
-    """Beside the middle of the longest of the intervals between real singular points; beside 1 to the right of a single one."""
+    """A point near the middle of the longest interval between real singular points; near 1 to the right of a single one."""
     real = sorted((zero.real for zero, _ in complex_zeros(den.rep.numer()) if zero.imag == 0), key=float) or [arb(0)]
     intervals = [*pairwise(real)] or [(real[0], real[0] + 2)]
     left, right = max(intervals, key=lambda ends: float(ends[1] - ends[0]))

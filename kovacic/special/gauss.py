@@ -9,8 +9,8 @@ Solutions: with the exponent differences alpha, beta, gamma at 0, 1, infinity, i
 The second solution has -alpha; where alpha is an integer, it is the one of this kind at 1.  These are independent if no
 combination (1 +- alpha +- beta +- gamma)/2 is an integer: a common solution would be elementary.  With the larger exponents
 at 0 and at 1 a common solution would be a multiple of a polynomial: they are independent if neither upper parameter is an
-integer <= 0.  P_N^(a,b)(1 - 2 z) is a multiple of 2F1(-N, N + a + b + 1; 1 + a; z); beside it there is one with another
-exponent at 0 or at infinity, and, for a = b, the one of the other parity.  For a natural a = b = m it is written as the
+integer <= 0.  P_N^(a,b)(1 - 2 z) is a multiple of 2F1(-N, N + a + b + 1; 1 + a; z); the second solution has another
+exponent at 0 or at infinity, or, for a = b, the other parity.  For a natural a = b = m it is written as the
 associated Legendre function P_(N+m)^m.  K, E and P_nu are written where 2F1 is one of them.
 
 With a = b and letters, the even and the odd solution about the middle of 0 and 1 are entire in the letters, and independent
@@ -62,7 +62,7 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    principal_root,
+    root_or_ball,
 )
 
 if TYPE_CHECKING:
@@ -156,7 +156,7 @@ class Gauss(StandardEquation):
         return min(sizes, key=lambda item: float(item[0]))[1]
 
     def form(self, n: fmpq_poly, d: fmpq_poly, coordinate: int) -> StandardForm:
-        return _values(_maps(n, d, *map(principal_root, self.parameters))[coordinate])
+        return _values(_maps(n, d, *map(root_or_ball, self.parameters))[coordinate])
 
 
 def klein_pullback(found: Covariants) -> Pullback:
@@ -242,7 +242,7 @@ class _GaussForm:
 
     @property
     def shorter(self) -> _GaussForm:
-        """The same solution u with fewer factors, by the sign of beta [DLMF 15.8.1]; a polynomial stays as it is."""
+        """The same solution u with fewer factors, by the sign of beta [DLMF 15.8.1]; a polynomial is unchanged."""
         if self.has_polynomial:
             return self
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
@@ -433,7 +433,7 @@ def _with_polynomial(form: _GaussForm) -> WrittenPair:
 
 
 def _gegenbauer_pair(form: _GaussForm) -> WrittenPair:
-    """C_N^(l)(1 - 2 f), l = 1/2 - alpha, or what is a multiple of it, and the solution of the other parity."""
+    """C_N^(l)(1 - 2 f), l = 1/2 - alpha, or a multiple of it, and the solution of the other parity."""
     import sympy
 
     writer = form.writer

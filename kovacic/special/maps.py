@@ -9,7 +9,7 @@ where S = f'^2 S0(f) + O(order 2).  With q = S0(infinity), and S0 = q - r/z + ..
 - S0 = q z (Airy's), q F'^2 F = S + ...: F is a cubic root, and all polar parts are determined.
 
 S0(f) has its only other pole at f = 0: so the zeros of f, which give its constant term, are the regular places of S, or
-critical points of f.  What is found is tested by the exact identity; the theory shows that nothing of the first three kinds is
+critical points of f.  Every f is tested by the exact identity; the theory shows that nothing of the first three kinds is
 overlooked but where a scale q or a root of unity lies in the residue field of a conjugate set of poles alone.
 
 At a finite place with the irreducible p, S = V/p^k for a p-adic unit V.  Infinity is the place z = 0 of S(1/z)/z^4, and what
@@ -36,8 +36,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
-from math import gcd, lcm
+from itertools import chain, combinations
+from math import gcd, lcm, prod
 
 from kovacic.algebra.extension import root_modulo, root_of_constant
 from kovacic.algebra.partial_fractions import decompose
@@ -283,11 +283,9 @@ def _shifted_differences(square: Poly, k: int) -> Iterator[Poly]:
     root = square.field.sqrt(square)
     if root is None:
         return
-    rational = root.field.rational_value(root)
-    centre = 0 if rational is None else round(rational)
+    centre = round(root.field.rational_value(root) or 0)
     found = [(root - centre + j) * Fraction(1, k) for j in range(-k, k + 1)]
-    if rational is not None:
-        found.sort(key=lambda e: abs(e.field.rational_value(e) or Fraction(0)))
+    found.sort(key=lambda e: abs(e.field.rational_value(e) or Fraction(0)))
     yield from (e * e for e in found)
 
 
@@ -299,8 +297,17 @@ def coverings(
     Those that are possible for these singular points, of small degree first.  Apparent ones may lie anywhere; up to `hidden`
     ramification points may lie at places that S doesn't show.
     """
-    for zeros, poles, rest in _distributed(points, apparent, hidden):
+    # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
+    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in apparent)
+    least_degree = _count(points) - 2 - elsewhere - hidden
+    without = _distributed(points, points, least_degree)
+    with_apparent = _distributed(points, [*points, *apparent], least_degree) if apparent else ()
+    tried = set()
+    for zeros, poles, rest in chain(without, with_apparent):
         f = RatFunc(zeros.polynomial, poles.polynomial)
+        if f in tried:
+            continue
+        tried.add(f)
         # the multiples of f that are 1 at the points of the rest, or have 1 for a critical value
         values = dict.fromkeys(value_at_point(f, point) for point in rest[:1] or unseen_points(f))
         for g in [f / value for value in values if value]:
@@ -329,20 +336,15 @@ class Fibre:
     @property
     def polynomial(self) -> Poly:
         """The product over the finite ones."""
-        result = self.square.field.poly([1])
-        for point, k in self.multiplicities:
-            if not point.at_infinity:
-                result = result * point.factor**k
-        return result
+        finite = (point.factor**k for point, k in self.multiplicities if not point.at_infinity)
+        return prod(finite, start=self.square.field.poly([1]))
 
 
-def _distributed(points: list[Orbit], apparent: list[Orbit], hidden: int) -> Iterator[tuple[Fibre, Fibre, list[Orbit]]]:
-    """Fibres over 0 and infinity of one degree n that have no point in common, and the points that are left over 1."""
-    among = [*points, *apparent]
+def _distributed(
+    points: list[Orbit], among: list[Orbit], least_degree: int
+) -> Iterator[tuple[Fibre, Fibre, list[Orbit]]]:
+    """Disjoint fibres of one degree n over 0 and infinity, made of `among`, and the points that are left over 1."""
     by_degree: dict[int, list[Fibre]] = {}
-    # n + 2 points lie over 0, 1 and infinity, and as many more as there is ramification elsewhere
-    elsewhere = sum(int(rational_square_root(point.square) or 1) * point.degree for point in apparent)
-    least_degree = _count(points) - 2 - elsewhere - hidden
     for fibre in fibres(among, 2 * _count(among) - 4):
         check_time()
         count_work(len(fibre.multiplicities))
@@ -385,8 +387,7 @@ def fibres(points: list[Orbit], most: int) -> Iterator[Fibre]:
 
 
 def _commensurable(points: list[Orbit], most: int, chosen: tuple[Orbit, ...] = ()) -> Iterator[tuple[Orbit, ...]]:
-    """Sets of `most` points or fewer with rational quotients of their exponent differences: what has been chosen, and all that
-    goes with it."""
+    """Sets of at most `most` points with rational quotients of their exponent differences that begin with the chosen ones."""
     if chosen:
         yield chosen
     left = most - _count(chosen)
@@ -407,10 +408,7 @@ def _ratio(point: Orbit, other: Orbit) -> Fraction | None:
 
 
 def _difference_at_ones(f: RatFunc, degree: int, points: list[Orbit]) -> Poly:
-    """The square of the exponent difference over 1, from that and the multiplicity of one point there.
-
-    A point that isn't singular has the exponent difference 1.
-    """
+    """The square of the exponent difference over 1, from that and the multiplicity of one point there."""
     over_one = f.num - f.den
     m = degree - over_one.degree  # at infinity
     if m:
@@ -418,5 +416,4 @@ def _difference_at_ones(f: RatFunc, degree: int, points: list[Orbit]) -> Poly:
     else:
         p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
         found = [point.square for point in points if point.factor == p and not point.at_infinity]
-    square = found[0] if found else over_one.field.poly([1])
-    return square * Fraction(1, m * m)
+    return next(iter(found), over_one.field.poly([1])) * Fraction(1, m * m)  # an ordinary point has the difference 1

@@ -1,6 +1,6 @@
 """Costs of the evaluation methods, in milliseconds of processor time, by which the cheapest one is chosen in advance.
 
-The numbers were fitted to `benchmarks/routes.py --prices`, which measures them once more; only their ratios matter.
+The numbers were fitted to `benchmarks/routes.py --prices`, which repeats the measurement; only their ratios matter.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Price:
 
 @dataclass(frozen=True)
 class Cost:
-    """Of FLINT's functions: the price of a target, and the most digits for which this holds, and they aren't far slower."""
+    """Cost of FLINT's functions: the price of a target, and the digits up to which it holds; then it soars."""
 
     target: Price
     most: int
@@ -46,14 +46,12 @@ DISC = Price(0.7, 62, 1.27)
 
 
 def terms(size: int) -> float:
-    """The factor by the degrees of S together, for a disc at many digits: the recurrence of the coefficients has as many
-    terms."""
+    """The factor for a disc at many digits by the sum of the degrees of S, the length of its recurrence."""
     return 0.5 + size / 8
 
 
 def beside(size: int) -> float:
-    """The factor for a disc beside the real axis: complex coefficients, and centres whose numbers are the longer the higher the
-    powers of x."""
+    """The factor for a disc off the real axis: complex coefficients, and centres whose powers have long numbers."""
     return 4.0 + size / 4
 
 
@@ -70,7 +68,7 @@ UNIT = 0.015
 
 
 def has_sure_solutions(S: RatFunc) -> bool:
-    """True where two exponentials or powers are certain: constant coefficients, and Euler's equation, S = c/(x - a)^2."""
+    """True if two exponentials or powers are certain: constant coefficients, and Euler's equation, S = c/(x - a)^2."""
     den = S.den
     is_euler = den.degree == 2 and den[1] * den[1] == 4 * den[0] * den[2]
     return S.num.degree <= 0 and (den.degree == 0 or is_euler)
@@ -79,7 +77,7 @@ def has_sure_solutions(S: RatFunc) -> bool:
 def decided_from(S: RatFunc) -> float:
     """The price of Taylor's method from which it pays to decide the equation first.
 
-    Ten times that of a decision, which is in vain as often as not; four times where it isn't.
+    Ten times that of a decision, which finds nothing as often as not; four times if it is sure to succeed.
     """
     return 4.0 if has_sure_solutions(S) else 12.0
 

@@ -72,7 +72,7 @@ class StandardForm:
 
 
 def each(*solutions: StandardSolution) -> StandardSolutions:
-    """The values of either; (0, 0) for those that aren't needed."""
+    """Both solutions, with (0, 0) for one that isn't needed."""
 
     def values(z: acb, needed: Sequence[bool]) -> list[ValueAndSlope]:
         pairs = zip(solutions, needed, strict=True)
@@ -81,8 +81,8 @@ def each(*solutions: StandardSolution) -> StandardSolutions:
     return values
 
 
-def principal_root(number: Any) -> Any:
-    """The principal square root: a rational number where it is one, else a ball."""
+def root_or_ball(number: Any) -> Any:
+    """The principal square root: a rational number if possible, else a ball."""
     try:
         return number.sqrt()
     except (DomainError, ValueError):
@@ -90,7 +90,7 @@ def principal_root(number: Any) -> Any:
 
 
 def is_integer(number: Any) -> bool:
-    """True if it is provably an integer."""
+    """True if the number is provably an integer."""
     return isinstance(number, fmpq) and number.q == 1
 
 
@@ -124,7 +124,7 @@ class StandardEquation(ABC):
     @classmethod
     @abstractmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
-        """Pull-backs that are possible, the likely ones first; each of them has to be verified.
+        """Possible pull-backs, the likely ones first; each has to be verified.
 
         With `extended`, f may have coefficients in a larger field than S.  With `shifted`, S needn't be theirs, but has what a
         gauge transformation keeps: the polar parts of its square root, and the exponent differences up to integers.
@@ -138,7 +138,7 @@ class StandardEquation(ABC):
         """
 
     def integers(self, writer: Writer, f: RatFunc) -> Iterator[Surd]:
-        """Numbers that may be integers, on whose signs it may depend what is written, the preferred ones first."""
+        """Possible integers whose signs may decide between forms of the solutions, the preferred ones first."""
         yield from ()
 
     # ----------------------------------------------------------------------------------------- values, over the rationals

@@ -1,4 +1,4 @@
-"""`special_functions`: two solutions in special functions as SymPy expressions, or which classes were searched in vain.
+"""`special_functions`: two solutions in special functions as SymPy expressions, or the classes searched without success.
 
 Where no pull-back is found, gauge transformations are sought: y = a v + b v' takes the solutions of
 v'' = T v to those of y'' = S y exactly if, with D = S - T,
@@ -56,12 +56,10 @@ EQUATIONS: tuple[type[StandardEquation], ...] = (Airy, Whittaker, Bessel, Gauss)
 SEARCH_WORK = 30_000
 
 
-def _pullback_candidates(
-    problem: Problem, equations: list[type[StandardEquation]], *, extended: bool, shifted: bool = False
-) -> Iterator[Pullback]:
-    """Raises `LimitExceeded` in the end where a limit on constants kept one of the equations from being sought."""
+def _pullback_candidates(problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
+    """Pull-backs to be verified; `LimitExceeded` in the end if the limit on constants cut off one of the equations."""
     stopped: LimitExceeded | None = None
-    for equation in equations:
+    for equation in _equations(problem):
         try:
             for pullback in equation.candidates(problem, extended=extended, shifted=shifted):
                 problem.budget.check()
@@ -75,7 +73,7 @@ def _pullback_candidates(
 
 
 def _equations(problem: Problem) -> list[type[StandardEquation]]:
-    """Those whose pull-backs have irregular singular points, or those whose haven't."""
+    """The standard equations whose pull-backs have irregular singular points exactly if S has some."""
     irregular = bool(irregular_places(problem))
     return [equation for equation in EQUATIONS if equation.irregular == irregular]
 
@@ -116,7 +114,7 @@ def _orders(first: Place, second: Place) -> list[_Order]:
 
 
 def _shifts(first: Place, second: Place) -> list[int]:
-    """By which integers exponents of y and v differ: at a regular place |Delta_S -+ Delta_T|, else twice the residues'."""
+    """Integer differences of exponents of y and v: |Delta_S -+ Delta_T| at regular places, else twice the residues'."""
     squares: list[Poly] = []
     A, B = first.delta_squared, second.delta_squared
     if max(first.order, second.order) > 2:
@@ -132,7 +130,7 @@ def _shifts(first: Place, second: Place) -> list[int]:
 
 
 def _squares_of_residues(first: Place, second: Place) -> list[Poly]:
-    """The square of twice the difference of those of sqrt(S) and sqrt(T), if both have one polar part."""
+    """The square of twice the difference of the residues of sqrt(S) and sqrt(T), if their polar parts agree."""
     for q in scales([second], 2):
         own = integral_of_square_root(first, q)
         other = integral_of_square_root(second, q)
@@ -220,16 +218,16 @@ def _null_vector(columns: list[Poly]) -> list[Poly] | None:
 
 @dataclass(frozen=True)
 class SpecialFunctions:
-    """Two solutions in special functions; true where they were found, and iterating gives both.
+    """Two solutions in special functions; true if they were found, and iterating gives both.
 
-    That nothing was found proves nothing: functions f outside of the classes aren't looked for.
+    A failed search proves nothing: functions f outside the classes aren't considered.
 
     Attributes
     ----------
     pullback : Pullback or None
         The verified pull-back of a standard equation that the solutions come from; None if nothing was found.
     searched : tuple of str
-        The classes that were gone through.
+        The classes that were searched.
     stopped : str or None
         Why a search ended early.
     y1, y2 : sympy.Expr or None
@@ -265,7 +263,7 @@ class SpecialFunctions:
 
     @property
     def solutions(self) -> tuple[Any, ...]:
-        """(y1, y2), or () where nothing was found."""
+        """(y1, y2), or () if nothing was found."""
         return () if self.pair is None else tuple(self.pair)
 
     def __iter__(self) -> Iterator[Any]:
@@ -306,20 +304,15 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True, work: int = SEARC
     try:
         with budget.watched(), bounded_work(work):
             problem = analyse(S, budget)
-            equations = _equations(problem)
-            searched = tuple(equation.searched for equation in equations)
-            found = (
-                pullback
-                for pullback in _pullback_candidates(problem, equations, extended=extended)
-                if pullback.gives(S)
-            )
-            return SpecialFunctions(next(found, None), searched)
+            searched = tuple(equation.searched for equation in _equations(problem))
+            candidates = _pullback_candidates(problem, extended=extended)
+            return SpecialFunctions(next((pullback for pullback in candidates if pullback.gives(S)), None), searched)
     except LimitExceeded as limit:
         return SpecialFunctions(None, searched, str(limit))
 
 
 def pair_for(wanted: Wanted, source: Pullback | GaugeTransform) -> WrittenPair | None:
-    """y1 and y2, checked; None if the assumptions on the symbols leave open which solutions are independent.
+    """Checked solutions y1 and y2; None if the assumptions on the symbols leave open which are independent.
 
     Raises `VerificationFailed` if the check fails, which is a defect of this package; `LimitExceeded` within
     `Budget.watched`.
@@ -338,8 +331,8 @@ def _checked_pair(pair: WrittenPair, writer: Writer) -> WrittenPair:
     wanted = writer.wanted
     for y in pair:
         if not is_numerical_solution(y, writer.atoms.x, wanted.S, wanted.gauge):
-            said = f"a special function for S = {wanted.S} failed its check; please report the equation: {y}"
-            raise VerificationFailed(said)
+            reason = f"a special function for S = {wanted.S} failed its check; please report the equation: {y}"
+            raise VerificationFailed(reason)
     return pair.mapped(lambda e: e.xreplace(writer.own))
 
 
@@ -364,20 +357,19 @@ def special_functions(request: Wanted, budget: Budget) -> SpecialFunctions:
         search = replace(search, searched=(*search.searched, "a v + b v' over these"))
     if source is None:
         return search
-    said = "the assumptions don't tell which solutions are independent"
-    pair = None
     try:
         with budget.watched():
             pair = pair_for(request, source)
     except LimitExceeded as limit:
-        said = str(limit)
+        return replace(search, pullback=None, stopped=str(limit))
     if pair is None:
-        return SpecialFunctions(None, search.searched, said)
-    return SpecialFunctions(source.pullback, search.searched, None, pair, source.transform)
+        stopped = "the assumptions don't tell which solutions are independent"
+        return replace(search, pullback=None, stopped=stopped)
+    return replace(search, pullback=source.pullback, pair=pair, transform=source.transform)
 
 
 def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
-    """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None if a limit is reached, too.
+    """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None if nothing is found within the limits.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -388,7 +380,7 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     tried = {S}
     with suppress(LimitExceeded), budget.watched(), bounded_work(SEARCH_WORK):
         problem = analyse(S, budget)
-        for pullback in _pullback_candidates(problem, _equations(problem), extended=False, shifted=True):
+        for pullback in _pullback_candidates(problem, extended=False, shifted=True):
             count_work(TRIAL)
             T = pullback.S
             if T in tried:
@@ -403,7 +395,7 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
 
 @dataclass(frozen=True)
 class BySign:
-    """Solutions where an integer that depends on parameters isn't negative, and where it is; None if none are known."""
+    """Solutions for natural values of an integer that depends on parameters, and those known for negative ones."""
 
     integer: Any
     natural: WrittenPair
@@ -444,7 +436,7 @@ def by_sign(request: Wanted, budget: Budget) -> BySign | None:
 
 
 def _helpful(pullback: Pullback, writer: Writer) -> Iterator[BySign]:
-    """What each integer gives whose sign is open: solutions that are known only by it, or polynomials that have names."""
+    """Solutions by the sign of each integer, if it is open: they are known only by it, or polynomials that have names."""
     import sympy
 
     def assuming(value: Any) -> WrittenPair | None:

@@ -48,7 +48,7 @@ from kovacic.special.pullback import (
     each,
     ends,
     is_integer,
-    principal_root,
+    root_or_ball,
 )
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class Whittaker(Bessel):
     def cost(self) -> prices.Cost:
         if not self.r:
             return super().cost
-        mu, kappa = (principal_root(square) / 2 for square in self.parameters)
+        mu, kappa = (root_or_ball(square) / 2 for square in self.parameters)
         if any(ends(fmpq(1, 2) + sign * mu - kappa) for sign in (1, -1)):  # Laguerre's polynomial, and one series
             return prices.BESSEL
         return prices.TRICOMI if is_integer(2 * mu) else prices.WHITTAKER
@@ -117,8 +117,8 @@ class Whittaker(Bessel):
         if coordinate:
             n = -n
             r = -r
-        mu = principal_root(4 * M + 1) / 2
-        rho = principal_root(q)
+        mu = root_or_ball(4 * M + 1) / 2
+        rho = root_or_ball(q)
         kappa = r / (2 * rho)
         half = fmpq(1, 2)
 
@@ -287,7 +287,7 @@ def _laguerre_pair(form: _WhittakerForm) -> WrittenPair | None:
         if is_named:
             first = first[0], sympy.assoc_laguerre(N, a, form.z)
         if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity; L_N(0) = (a + 1)_N/N!
-            # a product of N factors is left alone where N is a number, too large for a degree
+            # (a + 1)_N isn't multiplied out if N is a number: it may be large
             scale = sympy.factorial(N) if is_named else sympy.rf(a + 1, N, evaluate=not N.is_Number)
             return writer.pair(first, form.turned.tricomi, partial(mul, (-form.z) ** N / scale, form.slope))
         if is_named:

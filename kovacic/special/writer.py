@@ -1,7 +1,7 @@
 """Parts of the solutions as SymPy expressions: y = G u(f)/sqrt(f'), G the gauge factor, u a solution of the standard equation.
 
 Powers and exponentials with exponents in the field are gathered in one product; the others, whose exponents are a `Surd`
-with square roots, stand beside it (`WrittenFactor`).
+with square roots, are kept separately (`WrittenFactor`).
 """
 
 from __future__ import annotations
@@ -53,22 +53,22 @@ class WrittenPair:
     y1, y2 : sympy.Expr
         The solutions.
     known_wronskian : callable or None
-        Gives y1 y2' - y1' y2, which few ask for; None if it isn't known in closed form.
+        Gives y1 y2' - y1' y2, which is computed on demand; None if no closed form is known.
     undefined : tuple of sympy.Expr
-        Where one of these is zero a member has no value.
+        One of the solutions is undefined wherever one of these is zero.
     place : sympy.Expr or None
-        A number at which both are real, where the maker has looked for one.
+        A number at which both are real, if one was sought.
     """
 
     y1: Expr
     y2: Expr
-    known_wronskian: Callable[[], Expr | None] | None = field(default=None, compare=False, repr=False)
+    known_wronskian: Callable[[], Expr] | None = field(default=None, compare=False, repr=False)
     undefined: tuple[Expr, ...] = ()
     place: Expr | None = None
 
     @cached_property
     def wronskian(self) -> Expr | None:
-        """y1 y2' - y1' y2, or None if it isn't known in closed form."""
+        """y1 y2' - y1' y2, or None if no closed form is known."""
         return None if self.known_wronskian is None else self.known_wronskian()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -91,12 +91,9 @@ class WrittenPair:
         WrittenPair
             The pair of the images.
         """
-
-        def wronskian() -> Expr | None:
-            return None if self.wronskian is None else function(self.wronskian)
-
+        known = None if self.known_wronskian is None else lambda: function(self.wronskian)
         undefined = tuple(map(function, self.undefined))
-        return WrittenPair(function(self.y1), function(self.y2), wronskian, undefined, self.place)
+        return WrittenPair(function(self.y1), function(self.y2), known, undefined, self.place)
 
 
 #: Powers and exponentials, and the special function that they are multiplied with.
@@ -107,10 +104,10 @@ WrittenTerm = tuple[WrittenFactor, Expr]
 class Wanted:
     """The equation whose solutions are written, those of y'' = S y times exp(int gauge dx), and how.
 
-    `symbols` are SymPy's symbols for the parameters by name; the expressions are in these, and what is assumed about them is
-    used: with n a natural number, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary
-    points where the argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the
-    `places`, those values of the variable that are meant, as far as it can be had.
+    `symbols` maps names of parameters to SymPy's symbols, in which solutions are written, and whose assumptions are used: with
+    a natural n, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary points where the
+    argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the `places`, values of
+    the variable, if possible.
     """
 
     S: RatFunc
@@ -122,11 +119,9 @@ class Wanted:
 
 
 class Writer:
-    """Writes in one variable, with the user's own symbols by name and what is assumed about them, what is `wanted`.
+    """Writes the solutions that are `wanted`, or a v + b v' for these with a gauge transformation.
 
-    With a gauge transformation a v + b v' is written for what would be v without.  `places` are values of the variable at which
-    solutions are to be real.  With `singular`, a denominator of S, they are analytic wherever it isn't zero, even where
-    f is.
+    With `singular`, the denominator of S, solutions are analytic wherever it isn't zero, even at zeros of f.
     """
 
     def __init__(self, wanted: Wanted, transform: GaugeTransform | None = None) -> None:
@@ -146,7 +141,7 @@ class Writer:
 
     @property
     def own(self) -> dict[Expr, Expr]:
-        """The user's symbols, which carry assumptions, for those that are computed with."""
+        """The user's symbols, which carry assumptions, by the plain ones used in computations."""
         return {plain: symbol for plain, symbol in self.symbols.items() if plain != symbol}
 
     def assuming(self, value: Expr) -> Writer | None:
@@ -217,13 +212,13 @@ class Writer:
         return WrittenPair(y, z, known, tuple(map(_sine_of_letters, numbers)), place)
 
     def _wronskian(self, C: Expr, D: Expr, bracket: Callable[[], Expr]) -> Expr:
-        """From the bracket of two members, and what stands before each."""
+        """The Wronskian from the bracket of two members, and the factors before their functions."""
         scale = 1 if self.transform is None else self.atoms.factored(self.transform.factor / self.transform.m)
         others, rational = _by_rationality(C * D * scale, self.atoms.x)
         return others * sympy.factor(rational) * bracket()
 
     def _member(self, before: WrittenFactor, function: Expr, atoms: Atoms) -> tuple[Expr, Expr | None]:
-        """A solution, and what stands before the function in it; None if that isn't known."""
+        """A solution, and the factor before its function, or None if that isn't known."""
         if self.transform is not None:
             return self._combined(self.transform, before, function, atoms)
         powers = Mul(display(before.product, atoms), *before.others)
@@ -291,7 +286,7 @@ class Writer:
         return self._shown[value]
 
     def is_integer(self, value: Surd) -> bool:
-        """True if it is provably an integer."""
+        """True if the value is provably an integer."""
         return bool(self.constant(value).xreplace(self.known).is_integer)
 
     def has_letters(self, value: Surd) -> bool:
@@ -299,18 +294,20 @@ class Writer:
         return bool(self.constant(value).free_symbols)
 
     def is_natural(self, value: Surd) -> bool:
-        """True if it is provably a nonnegative integer."""
+        """True if the value is provably a nonnegative integer."""
         if value not in self._natural:
             shown = self.constant(value)
-            self._natural[value] = any(_is_natural(shown.xreplace(known)) for known in (self.symbols, self.known))
+            self._natural[value] = any(
+                _is_provably_natural(shown.xreplace(known)) for known in (self.symbols, self.known)
+            )
         return self._natural[value]
 
     def is_degree(self, value: Surd) -> bool:
-        """True if it is provably natural and depends on a parameter."""
+        """True if the value is provably natural and depends on a parameter."""
         return self.has_letters(value) and self.is_natural(value)
 
     def is_negative(self, value: Surd | Poly) -> bool:
-        """True if it is known to be negative, or would be written with a minus sign where its sign isn't known."""
+        """True if the value is negative, or has an unknown sign and would be written with a minus sign."""
         shown = self.constant(value)
         known = shown.xreplace(self.symbols).is_negative
         return bool(shown.could_extract_minus_sign() if known is None else known)
@@ -339,7 +336,7 @@ class Writer:
         return self.constant(number) * self.argument(f) if number.roots else self.argument(f * number.part)
 
     def scale(self, f: RatFunc) -> Poly:
-        """The constant beside the powers of f's monic factors, of those times -1 that are negative at the first place."""
+        """The constant factor of f for monic factors, each times -1 if it is negative at the first place."""
         turned = sum(k % 2 and self.real.is_turned(p) for p, k in f.multiplicities) if self.places else 0
         return -f.num.lc if turned % 2 else f.num.lc
 
@@ -370,7 +367,7 @@ class Writer:
         return c * odd + s * even, value * c**2 - slope * s**2
 
 
-def _is_natural(value: Expr) -> bool:
+def _is_provably_natural(value: Expr) -> bool:
     """True if an expression in the user's symbols is provably natural: a positive integer n is n' + 1 with a natural n'."""
     if not value.is_integer:
         return False
@@ -380,14 +377,14 @@ def _is_natural(value: Expr) -> bool:
 
 
 def _by_rationality(product: Expr, x: Any) -> tuple[Expr, Expr]:
-    """The factors that aren't rational in x, and those that are, in which something may cancel that SymPy's product keeps."""
+    """The factors that aren't rational in x, and those that are, in which more may cancel than in SymPy's product."""
     parts = Mul.make_args(product)
     rational = [part for part in parts if part.is_rational_function(x)]
     return Mul(*(part for part in parts if part not in rational)), Mul(*rational)
 
 
 def _in_lowest_terms(quotient: Expr) -> Expr:
-    """As `sympy.cancel` has it, and with pseudo-remainders where its heuristic finds no greatest common divisor."""
+    """`sympy.cancel`, by pseudo-remainders if its heuristic finds no greatest common divisor."""
     n, d = sympy.fraction(sympy.together(quotient))
     try:
         return sympy.cancel(n / d)

@@ -1,4 +1,4 @@
-"""Special functions: pull-backs that were made first are found, and what is written down solves the equation to 30 digits."""
+"""Special functions: generated pull-backs are found, and written solutions satisfy the equation to 30 digits."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_generated_pull_backs_are_found(kind: str) -> None:
     for case in pull_backs(4, kinds=(kind,), seed=7):
         found = find(case.S, Budget()).pullback
         assert found is not None, (case.f, case.S)
-        # The identity once more, by the code of the tests.
+        # The identity, by the independent code of the tests.
         assert pull_back(found.equation.S, found.f) == case.S
 
 
@@ -138,7 +138,7 @@ CORPUS = [
 def test_what_other_systems_solve(part: int) -> None:
     """The equations of SymPy's tests (Airy, Bessel, 2F1) and of Maxima's (odelin, Kamke) without Liouvillian solutions.
 
-    What is shown is checked in ball arithmetic before it is returned.
+    Solutions are checked in ball arithmetic before they are returned.
     """
     for row in CORPUS[part::10]:
         parsed = read_input(row["equation"], var="x")
@@ -193,7 +193,7 @@ def test_equations_outside_of_the_classes() -> None:
 
 @pytest.mark.long
 def test_parameters_and_the_imaginary_unit() -> None:
-    """SymPy's own constructor of hyper doesn't end here where evaluation is switched off."""
+    """SymPy's own constructor of hyper does not terminate here without evaluation."""
     answer = kovacic.solve("x*y'' + y' + (x + a)*y = 0")
     assert solves(answer.special, answer.S, answer.gauge, a=mpmath.mpf(2) / 7)
     assert answer.special.y1.args[1] == sympy.hyper(((1 + sympy.I * sympy.Symbol("a")) / 2,), (1,), 2 * sympy.I * x)
@@ -217,6 +217,25 @@ def test_many_equal_singular_points_are_a_limit() -> None:
     search = find(S, Budget())
     assert search.pullback is None
     assert "units of work" in str(search.stopped)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("poles", "at_one", "at_infinity"),
+    [((2, 2, 1, 1, 1, 1), Fraction(1, 3), Fraction(2, 7)), ((3, 2, 1, 1, 1, 0), Fraction(2, 7), Fraction(1, 3))],
+    ids=["apart from apparent points", "among apparent points"],
+)
+def test_fibres_are_made_without_apparent_points_and_with_them(
+    poles: tuple[int, ...], at_one: Fraction, at_infinity: Fraction
+) -> None:
+    """With the difference 1/2 at 0, the fourfold zeros 0 and 2 of f are apparent singularities."""
+    f = (X * (X - 2)) ** 4
+    for pole, multiplicity in zip((1, -1, 3, -3, 4, -4), poles, strict=True):
+        f = f / (X - pole) ** multiplicity
+    S = pull_back(hypergeometric(Fraction(1, 2), at_one, at_infinity), f)
+    found = find(S, Budget()).pullback
+    assert found is not None
+    assert pull_back(found.equation.S, found.f) == S
 
 
 def test_many_conjugate_poles_are_a_limit() -> None:
