@@ -109,7 +109,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _curve_terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
-    common, other = _with_norms(form, terms, atoms)
+    common, other = _common_factors(form, terms, atoms)
     # A and B kappa s of the gathered zeros A +- B kappa s, up to a common factor, without denominators
     A, B = Integer(1), Integer(0)
     if form.zeros is not None:
@@ -131,7 +131,7 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
     return first, second, terms.notes
 
 
-def _with_norms(form: OnCurve, terms: _Terms, atoms: Atoms) -> tuple[Expr, Expr]:
+def _common_factors(form: OnCurve, terms: _Terms, atoms: Atoms) -> tuple[Expr, Expr]:
     """The common factor of both solutions, times prod p^(+-n kappa/tau) over the norms, which join its powers in the field."""
     ratio = terms.tau_squared and form.common.field.sqrt(form.kappa_squared / terms.tau_squared)
     if ratio is None:
