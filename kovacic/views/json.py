@@ -23,6 +23,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
+from flint import fmpz
+
 from kovacic import derived
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Field, Poly
@@ -442,7 +444,7 @@ class _AnswerReader(WrittenReader):
         return SemiInvariant(_typed(data, "degree", int), self.ratfunc(data["theta"]), self.poly(data["P"]))
 
     def series(self, data: Mapping[str, Any]) -> TerminatingSeries:
-        step, degree, lowest = (int(_typed(data, name, int, str)) for name in ("step", "degree", "lowest"))
+        step, degree, lowest = (int(fmpz(_typed(data, name, int, str))) for name in ("step", "degree", "lowest"))
         return TerminatingSeries(self.ratfunc(data["theta"]), self.poly(data["centre"]), step, degree, lowest)
 
 
