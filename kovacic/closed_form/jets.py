@@ -378,8 +378,8 @@ def _associated_legendre(n: Any, m: Any, z: Any) -> Any:
 _BY_SERIES: dict[Any, Callable[..., Any]] = {
     sympy.elliptic_k: lambda m: sympy.elliptic_k(m).rewrite(sympy.hyper),
     sympy.elliptic_e: lambda m: sympy.elliptic_e(m).rewrite(sympy.hyper),
-    sympy.jn: lambda n, z: sympy.jn(n, z).rewrite(sympy.besselj),
-    sympy.yn: lambda n, z: sympy.yn(n, z).rewrite(sympy.bessely),
+    sympy.jn: lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * sympy.besselj(n + sympy.S.Half, z),
+    sympy.yn: lambda n, z: sympy.sqrt(sympy.pi / (2 * z)) * sympy.bessely(n + sympy.S.Half, z),
     sympy.laguerre: lambda n, z: sympy.hyper((-n,), (1,), z),
     sympy.assoc_laguerre: lambda n, a, z: _binomial(n, a) * sympy.hyper((-n,), (a + 1,), z),
     sympy.legendre: lambda n, z: sympy.hyper((-n, n + 1), (1,), (1 - z) / 2),

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial, reduce
 from operator import mul
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import sympy
 from sympy import Mul, exp
@@ -27,9 +27,6 @@ from kovacic.closed_form.product import Power, Product, product
 from kovacic.compatibility import cached_property
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Surd, half_rate
-
-if TYPE_CHECKING:
-    from kovacic.special.pullback import GaugeTransform
 
 
 @dataclass(frozen=True)
@@ -118,13 +115,29 @@ class Wanted:
     places: Sequence[Fraction] = ()
 
 
+class Combined(Protocol):
+    """sqrt(m) (a v + b v'): what a `pullback.GaugeTransform` makes of v; `factor` is that of the Wronskian."""
+
+    @property
+    def m(self) -> Poly: ...
+
+    @property
+    def a(self) -> RatFunc: ...
+
+    @property
+    def b(self) -> RatFunc: ...
+
+    @property
+    def factor(self) -> RatFunc: ...
+
+
 class Writer:
     """Writes the solutions that are `wanted`, or a v + b v' for these with a gauge transformation.
 
     With `singular`, the denominator of S, solutions are analytic wherever it isn't zero, even at zeros of f.
     """
 
-    def __init__(self, wanted: Wanted, transform: GaugeTransform | None = None) -> None:
+    def __init__(self, wanted: Wanted, transform: Combined | None = None) -> None:
         self.wanted = wanted
         self.gauge = wanted.gauge
         self.places = wanted.places
@@ -227,7 +240,7 @@ class Writer:
         return powers * function, powers
 
     def _combined(
-        self, transform: GaugeTransform, before: WrittenFactor, function: Expr, atoms: Atoms
+        self, transform: Combined, before: WrittenFactor, function: Expr, atoms: Atoms
     ) -> tuple[Expr, Expr | None]:
         """P sqrt(m) ((a + b P'/P) F + b F') over a constant c for v = P F, F' = s F + t F1, F1 another function; P sqrt(m)/c.
 
