@@ -52,10 +52,10 @@ from kovacic.engine.families import (
 from kovacic.engine.places import Kind, Problem
 from kovacic.engine.riccati import numerators
 from kovacic.equation import parameters_of
-from kovacic.limits import MOST_TRIALS, check_time
+from kovacic.limits import check_time
 
 #: Families that are enumerated, or sums that are counted apart; of a few families all are shown and tried.
-_MOST_FAMILIES = 10 * MOST_TRIALS
+_MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
 #: The highest order of a pole: longer singular parts fill a screen each, and (1 + x + x^2)/x^200 takes more than a minute.
 _HIGHEST_POLE_ORDER = 40

@@ -37,6 +37,7 @@ from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.engine.places import Place, Problem, analyse, rational_square_root
+from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
 from kovacic.limits import Budget, bounded_work, count_work
 from kovacic.numbers.numerals import as_latex, as_text
@@ -166,7 +167,7 @@ def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Po
     size += degree + 1
     if degree < 0:
         return None
-    count_work(size * size)
+    count_work(size * size if parameters_of(S.field) else size)  # over Q(t) the numbers grow with the size
     zero = RatFunc(one * 0)
     rate = half_rate(m) + R.derivative() / R  # u'/u
 
@@ -378,7 +379,7 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     Airy's x x 0
     """
     tried = {S}
-    with suppress(LimitExceeded), budget.watched(), bounded_work(SEARCH_WORK):
+    with suppress(LimitExceeded), budget.watched(), bounded_work(2 * SEARCH_WORK):  # each f has an equation to be tried
         problem = analyse(S, budget)
         for pullback in _pullback_candidates(problem, extended=False, shifted=True):
             count_work(TRIAL)
