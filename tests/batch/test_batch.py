@@ -713,6 +713,9 @@ def test_an_output_with_something_in_it_is_refused_before_any_work(
     assert output.read_text() == "precious\n"
     assert run(["batch", str(source), "--resume"]) == 2
     assert "--resume needs --output FILE" in capsys.readouterr().err
+    new = tmp_path / "new.jsonl"
+    assert run(["batch", str(source), "-o", str(new), "-j", "1"]) == 0
+    assert json.loads(new.read_text())["case"] is None
 
 
 @pytest.mark.long

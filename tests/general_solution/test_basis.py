@@ -57,10 +57,11 @@ FAMILIES: list[tuple[str, dict[str, str]]] = [
     ("(1-x^2)*y'' - x*y' + n^2*y = 0", {}),
     ("y'' = (x^2 + 3)*y", {}),
     ("x^2*y'' + x*y' + y = 0", {}),
+    ("x^2*(x-a)*y'' + x*(2*x-a)*y' + b*y = 0", {}),
 ]
 
 
-@parametrize(("equation", "assume"), FAMILIES, ordinary=(0, 6, 12, 25), long=(1, 32))
+@parametrize(("equation", "assume"), FAMILIES, ordinary=(0, 6, 12, 25, 38), long=(1, 32))
 def test_the_wronskian_is_that_of_the_pair(equation: str, assume: dict[str, str]) -> None:
     """W = y1 y2' - y1' y2 at a point, for letters that fit the assumptions; special functions state theirs."""
     answer = kovacic.answer_to(equation, assume=assume)
