@@ -584,6 +584,36 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
 }
 
 
+#: This package's own notation alone: whole numbers, single letters with their primes, signs.  Not numbers of lists and
+#: equations, "2) y''", "(2) y''", "y'' = y (2)", nor what may begin a comment.
+_PLAIN_TEXT = re.compile(
+    r"""
+    (?! \ * (?: [^ (]{1,2}\ *\) | \(\ *\w+\ *\)\  ) )
+    (?: [0-9]+(?![0-9.eE]) | [A-CF-Za-ce-z](?:'+(?!'))?(?![\w'.]) | \*{1,2}(?!\*) | \((?! \* | \ *[0-9]+\ *\)\ *$ )
+      | /(?![*/]) | -(?!-) | =(?!=) | [+^)\ ] )+
+    """,
+    re.VERBOSE | re.ASCII,
+)
+_PLAIN_TOKEN = re.compile(
+    r"(?P<HEAD>[A-Za-z]'*(?=\ *\())|(?P<NUMBER>[0-9]+)|(?P<PRIMED>[A-Za-z]'+)|(?P<NAME>[A-Za-z])|\*\*|[^ ]"
+)
+
+
+def plain_tokens(text: str) -> ParserTokens | None:
+    """The result of `in_own_notation` for a text in this package's own notation; None for other texts.
+
+    >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
+    (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
+    """
+    if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
+        return None
+    found = [
+        Token(match.lastgroup or _SIGN_KINDS[match[0]], match[0], *match.span())
+        for match in _PLAIN_TOKEN.finditer(text)
+    ]
+    return ParserTokens([*found, Token("$END", "", len(text), len(text))], text)
+
+
 def tokenize(text: str) -> ParserTokens:
     """The tokens of an expression.  Raises `ParseError` for tokens without a meaning."""
-    return in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))
+    return plain_tokens(text) or in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))

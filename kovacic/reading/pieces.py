@@ -22,7 +22,7 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
-from kovacic.reading.dialects import FRACTIONS, LAYOUT, in_own_notation
+from kovacic.reading.dialects import FRACTIONS, LAYOUT, in_own_notation, plain_tokens
 from kovacic.reading.lexer import DERIVATIVES, PRIME, Token, error_at, scanned
 from kovacic.reading.names import INFINITIES, is_function, is_letter
 from kovacic.reading.notations import (
@@ -177,6 +177,9 @@ class Paste:
         self.notes: list[str] = []
         #: Statements that have names, until they are used.
         self.named: dict[str, Tokens] = {}
+        if self.plain is not None:
+            self.pieces.append(PastedPiece("equation", Tokens(self.plain[:-1])))
+            return
         statements = list(_statements(_plain_tokens(text)))
         for scan in filter(None, map(self.without_surroundings, statements)):
             self.statement(scan, is_alone=len(statements) == 1)
@@ -200,10 +203,19 @@ class Paste:
     @cached_property
     def is_equation(self) -> bool:
         """True for an equation, false for S alone."""
+        if self.plain is not None:
+            return "=" in self.text or PRIME in self.text
         return any(map(is_equation, self.scans("equation")))
 
     @cached_property
+    def plain(self) -> ParserTokens | None:
+        """The tokens of one equation or S in this package's own notation, which takes a third of the time; None for others."""
+        return plain_tokens(self.text)
+
+    @cached_property
     def equations(self) -> list[ParserTokens]:
+        if self.plain is not None:
+            return [self.plain]
         return [in_own_notation(self.text, scan) for scan in self.scans("equation")]
 
     @cached_property

@@ -22,7 +22,10 @@ import kovacic
 from kovacic.cli.main import run
 from kovacic.doubles.lambdify import lambdify
 from kovacic.general_solution.question import apart, read_question
-from kovacic.reading.dialects import tokenize
+from kovacic.reading import notations
+from kovacic.reading.dialects import in_own_notation, plain_tokens, tokenize
+from kovacic.reading.lexer import scanned
+from kovacic.reading.notations import Tokens, rewritten
 from kovacic.reading.pieces import Paste
 from kovacic.reading.source import source_of
 
@@ -849,3 +852,24 @@ def test_systems_are_read_in_their_notations(text: str) -> None:
 def test_a_value_declares_its_name() -> None:
     expected = kovacic.evaluate("y'' + 2*y = 0", 1, x0=0, y0=1, dy0=0)
     assert kovacic.evaluate("mass*y'' + k*y = 0", 1, x0=0, y0=1, dy0=0, params={"mass": 1, "k": 2}) == expected
+
+
+def test_plain_texts_are_read_as_all_others() -> None:
+    """The short way of texts without notations of others gives the tokens, places included, of the long one."""
+    rng = random.Random(3)
+    parts = [*"xytakiITHuSCn()+-*/^=2013", "y'", "y''", "**", "(x)", "13", " ", "  ", " = "]
+    texts = [row["text"] for row in PASTED] + [
+        "".join(rng.choice(parts) for _ in range(rng.randint(1, 14))) for _ in range(4000)
+    ]
+    plain = 0
+    for text in texts:
+        found = plain_tokens(text)
+        if found is None:
+            continue
+        plain += 1
+        other = in_own_notation(text, rewritten(Tokens(scanned(text)), notations.NOTATIONS))
+        assert (list(found), found.text, found.variable) == (list(other), other.text, other.variable), text
+        paste = Paste(text)
+        assert paste.is_equation == ("=" in text or "'" in text)
+        assert (paste.notes, paste.variable, len(paste.pieces)) == ([], None, 1), text
+    assert plain > 1000
