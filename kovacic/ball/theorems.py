@@ -88,7 +88,7 @@ class BallSolution:
 def closed_form(place: Rolling) -> BallSolution:
     """The general solution of the linear equations of a ball, degenerate balls and the plane included; real on [-1, 1].
 
-    It has sines and cosines if l is known to be negative; undecided symbolic parameters count as generic.  For an integer
+    It has sines and cosines if the assumptions make l negative; undecided symbolic parameters count as generic.  For an integer
     N = 2 rho, omega is written in the roots x1, x2.  y = D^(3/4) omega_3, except for a constant D (A1 = A3 and a = 0), whose
     power is left out: y = omega_3 = c1 + c2 x.
 

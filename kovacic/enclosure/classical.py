@@ -286,7 +286,7 @@ def _followed(poly: fmpq_poly, a: ExactPoint, b: ExactPoint) -> acb:
     """The logarithm of p(b)/p(a), continued from 0 along the segment; raises NotServed if p may have a zero there.
 
     The quotients (x - zeta)/(a - zeta) run along straight lines from 1, so their principal logarithms are the continuous ones
-    and add up to the logarithm.  So its imaginary part is known to a few digits, which determine the multiple of pi i to be
+    and add up to the logarithm.  This gives its imaginary part to a few digits, which determine the multiple of pi i to be
     added to the principal logarithm of p(b)/p(a) or of its negative.
     """
     # 0 where the way begins at a zero of f, of 1 - f or a pole.

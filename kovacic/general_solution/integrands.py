@@ -117,15 +117,10 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
     odd = [polynomial for polynomial in polynomials if polynomial.degree() % 2]
     if odd and all(polynomial.LC().is_negative for polynomial in odd):
         return -integral_of_product(term.subs(x, -x), x).subs(x, -x)
-    at = None
-    if polynomials and all(p.LC().is_positive for p in polynomials):
-        at = sympy.oo  # where sqrt(x^2 - 1) and the like are real
-    elif polynomials and not any(p.free_symbols_in_domain for p in polynomials):
-        at = common_place(x, {p: p.as_expr() for p in polynomials})
     # the term is a constant times h, which has its logarithmic derivative; of t1 + t2 + ... that of t1 (1 + t2/t1 + ...)
     first, *others = Add.make_args(term)
     whole = Add(1, *((other / first).replace(exp, lambda u: exp(cancel(u))) for other in others))
-    atoms = Atoms(x, at=at)
+    atoms = Atoms(x, at=_place_of_real_roots(polynomials, x))
     h = product(_as_ratfunc(relative_slope(first, x) + whole.diff(x) / whole, x))
     scale, shown = factors(h, atoms)
     # SymPy's arithmetic with algebraic numbers takes minutes
@@ -133,6 +128,15 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
     if found is None:
         raise UnknownIntegral
     return expand(_constant_value(term, scale * sympy.Mul(*shown), x) * found, deep=False)
+
+
+def _place_of_real_roots(radicands: list[Any], x: Expr) -> Expr | None:
+    """A point, or oo, near which the square roots of polynomials in x are real; None if none is found."""
+    if radicands and all(polynomial.LC().is_positive for polynomial in radicands):
+        return sympy.oo
+    if not radicands or any(polynomial.free_symbols_in_domain for polynomial in radicands):
+        return None
+    return common_place(x, {polynomial: polynomial.as_expr() for polynomial in radicands})
 
 
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:

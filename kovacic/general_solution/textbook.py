@@ -285,7 +285,7 @@ def _as_one_wave(total: Expr) -> Expr:
 
 
 def _with_short_coefficients(e: Expr, x: Expr) -> Expr:
-    """The same with quotients of letters in factors and completed squares, as in (k - m w^2)^2 + c^2 w^2."""
+    """Write quotients of letters in factors, and complete squares, as in (k - m w^2)^2 + c^2 w^2."""
     if x not in e.free_symbols:  # which a `CRootOf` may have in its polynomial
         return shortest([e, *_quotients_in_factors(e)])
     if e.is_Add:

@@ -26,7 +26,7 @@ from kovacic.equation import parameters_of
 
 
 def over_parameters(value: Poly) -> FunctionPoly:
-    """The polynomial, whose field is known to be some Q(t); raises `TypeError` if it isn't."""
+    """The polynomial, as one over a field Q(t); raises `TypeError` for another field."""
     if not isinstance(value, FunctionPoly):
         raise TypeError("a function over Q(t) is expected")
     return value

@@ -206,7 +206,7 @@ NEVER = Either(())
 
 
 def reduced_statement(statement: Statement, truth: bool | None) -> Statement:
-    """ALWAYS or NEVER for a statement that is known to be true or false, else the statement."""
+    """ALWAYS or NEVER if the statement is decided, else the statement itself."""
     return {True: ALWAYS, False: NEVER, None: statement}[truth]
 
 

@@ -242,7 +242,7 @@ class _GaussForm:
 
     @property
     def shorter(self) -> _GaussForm:
-        """The same solution u with fewer factors, by the sign of beta [DLMF 15.8.1]; a polynomial is unchanged."""
+        """The solution u with fewer factors, by the sign of beta [DLMF 15.8.1]; a polynomial stays unchanged."""
         if self.has_polynomial:
             return self
         forms = [replace(self, beta=sign * self.beta) for sign in (1, -1)]
