@@ -19,7 +19,7 @@ from kovacic.numbers.exact import whole
 from kovacic.process import LONGEST_SECONDS
 from kovacic.solution import Solution
 from kovacic.views.json import group_dict
-from kovacic.writing.document import FORMATS, Table
+from kovacic.writing.document import notebook_table
 from kovacic.writing.escaped import json_line
 
 # The verdict of a record in one word; the degree of omega is added in case 3.
@@ -93,7 +93,7 @@ class Record:
         return f"<Record {self.number}: {self.label}>"
 
     def _repr_html_(self) -> str:
-        first = FORMATS["html"].render([Table((), [(f"equation {self.number}", self.error or self.label)])]).rstrip()
+        first = notebook_table([(f"equation {self.number}", self.error or self.label)])
         return first if self.error is not None else first + self.solution._repr_html_()
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -76,26 +77,26 @@ def solve(
         return int(context.invoke(explain, equations=equations, no_solutions=no_solutions, **given))
     if ics:
         options.refuse({"assume", "full", "no_solutions"}, "with --ics")
-        given |= {"as_json": form == "json", "as_formula": form == "formula", "ics": ", ".join(ics)}
+        given |= {"form_json": form == "json" and form, "form_latex": form == "formula" and form, "ics": ", ".join(ics)}
         texts = (text if Paste(text).is_equation else f"y'' = ({text.strip()})*y" for text in equations)
         return max(int(context.invoke(dsolve, equation=text, **given)) for text in texts)
 
-    def show(answer: Solution) -> Iterable[str]:
-        if form == "json":
-            return (answer.to_json(full=full),)
-        if form == "formula":
-            return (answer._repr_latex_(),)
-        if form in options.CODE_FORMS:
-            return _assignments(answer, form)
+    def lines(answer: Solution) -> Iterable[str]:
         solutions: Iterable[str] | None = None
         if not no_solutions:
             homogeneous = answer.equation is None or answer.equation.is_homogeneous
             solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
         return map(fitted, render(answer, style=options.styled, solutions=solutions))
 
+    show = options.in_form(
+        form,
+        text=lines,
+        json=lambda answer: [answer.to_json(full=full)],
+        formula=lambda answer: [answer._repr_latex_()],
+        others=partial(_assignments, language=form),
+    )
     refuse = _print_refusal if form == "json" else None
-    gap = "\n" if form == "text" else ""
-    return options.answer_each(equations, show, gap=gap, refuse=refuse, **given)
+    return options.answer_each(equations, show, gap="\n" * (show is lines), refuse=refuse, **given)
 
 
 def _assignments(answer: Solution, language: str) -> Iterator[str]:
@@ -166,7 +167,7 @@ def dsolve(equation: str, form: str, ics: str, **given: Any) -> int:
             lines = list(_solution_lines(equation, latex=form == "formula", ics=ics, **given))
         options.say_reading(equation, given["var"], given["parameters"])
         for line in lines:
-            print(fitted(line) if form == "text" else line)
+            print(options.in_form(form, text=fitted, others=str)(line))
         return Exit.DECIDED
     except KovacicError as error:
         if form == "json":
@@ -233,9 +234,8 @@ def _solution_in_json(equation: str, ics: str, **given: Any) -> str:
 @options.equation_command()
 @click.argument("equations", metavar="EQUATION...", nargs=-1, required=True)
 @options.formats(
-    choice="Text (the default); Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, "
+    format="Text (the default); Markdown with formulas between dollar signs; the body of a LaTeX document (amsmath, amssymb, "
     "graphicx); or a page of its own for a browser.",
-    suffixes=options.DOCUMENTS,
 )
 @click.option(
     "-o",
@@ -277,7 +277,7 @@ def explain(
         if output is not None:
             output.write_text(f"{text}\n", encoding="utf-8")
             return f"wrote {output}"
-        return fitted(text) if form == "text" else text
+        return str(options.in_form(form, text=fitted, others=str)(text))
 
     def show(answer: Solution) -> Iterable[str]:
         if cite:

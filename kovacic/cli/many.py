@@ -85,12 +85,7 @@ def batch(
 @click.argument("ranges", metavar="NAME=START:STOP:STEP...", nargs=-1, required=True)
 @click.option("-o", "--output", type=options.OutputFile(), help="Write to this file.")
 @click.option("--resume", is_flag=True, help="Take an interrupted scan up again (JSONL).")
-@options.formats(
-    choice="By default by the name of the output.",
-    choices=("jsonl", "csv"),
-    suffixes={".csv": "csv"},
-    default="jsonl",
-)
+@options.formats({".jsonl": "jsonl", ".csv": "csv"}, default="jsonl", format="By default by the name of the output.")
 @click.option("--map", "picture", type=options.PICTURE, help="Draw two parameters as a map (png, pdf, svg).")
 @click.option("--group/--no-group", default=True, show_default=True, help="The differential Galois group.")
 @click.option("--var", metavar="NAME", help="The name of the variable; by default x, or what isn't a parameter.")
@@ -226,7 +221,7 @@ def _progress(summary: Summary, total: int | None) -> Iterator[Callable[[], None
 
 def _print_summary(summary: Summary, seconds: float) -> None:
     """Counts by case and the times, on standard error."""
-    from kovacic.writing.document import FORMATS, Paragraph, Table
+    from kovacic.writing.document import Paragraph, Table, format_of
 
     counts = Table(("outcome", "equations"), [[k, str(n)] for k, n in [*summary.rows(), ("all", summary.total)]])
     lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second"]
@@ -236,4 +231,4 @@ def _print_summary(summary: Summary, seconds: float) -> None:
         lines.insert(0, f"time of an equation: {quantiles}, {slowest}")
     if summary.before:
         lines.insert(0, f"{summary.before.total()} more had been answered before")
-    print(FORMATS["text"].render([counts, Paragraph("\n".join(lines))]), end="", file=sys.stderr)
+    print(format_of().render([counts, Paragraph("\n".join(lines))]), end="", file=sys.stderr)

@@ -55,64 +55,49 @@ _TABLE_ROW = re.compile(r"\S {2,}\S")
 _CODES = {"title": "1", "good": "32", "bad": "31", "unsure": "33", "faint": "2"}
 
 
-#: The formats of documents, by the suffixes of files.
-DOCUMENTS = {".html": "html", ".md": "markdown", ".tex": "latex", ".txt": "text"}
-
-
 #: Of `kovacic.as_code`.
 CODE_FORMS = ("mathematica", "maple", "julia")
+#: The formats of documents, by the suffixes of files.
+DOCUMENTS = {".txt": "text", ".md": "markdown", ".tex": "latex", ".html": "html"}
 
 
 def formats(
-    *,
-    json: str | None = None,
-    latex: str | None = None,
-    code: str | None = None,
-    choice: str | None = None,
-    choices: Sequence[str] = ("text", "markdown", "latex", "html"),
-    suffixes: Mapping[str, str] | None = None,
-    default: str = "text",
+    suffixes: Mapping[str, str] = DOCUMENTS, *, default: str = "text", **helps: str
 ) -> Callable[[CommandFunction], CommandFunction]:
-    """The options --json, --latex, --as and --format of a command, if they have a help text here; they exclude each other.
+    """The options --json, --latex, --as and --format of a command that have a help text here; they exclude each other.
 
-    The command gets one keyword `form`: "json"; "formula" for --latex; the language of --as; the value of --format or of the
-    suffix of --output; or the default.
+    The command gets one keyword `form`, for `in_form`: "json"; "formula" for --latex; the language of --as; the value of
+    --format or of the suffix of --output, one of the `suffixes`; or the default.
     """
-    # The first one is applied last, and stands first in the help.
-    options = []
-    if choice:
-        options.append(click.option("--format", "form", type=click.Choice(choices), help=choice))
-    if code:
-        options.append(click.option("--as", "language", type=click.Choice(CODE_FORMS), help=code))
-    if latex:
-        options.append(click.option("--latex", "as_formula", is_flag=True, help=latex))
-    if json:
-        options.append(click.option("--json", "as_json", is_flag=True, help=json))
+    settings: dict[str, tuple[str, dict[str, Any]]] = {
+        "json": ("--json", {"flag_value": "json"}),
+        "latex": ("--latex", {"flag_value": "formula"}),
+        "code": ("--as", {"type": click.Choice(CODE_FORMS)}),
+        "format": ("--format", {"type": click.Choice([*suffixes.values()])}),
+    }
 
     def decorate(command: CommandFunction) -> CommandFunction:
         @wraps(command)
-        def with_form(
-            *arguments: Any,
-            as_json: bool = False,
-            as_formula: bool = False,
-            language: str | None = None,
-            form: str | None = None,
-            **given: Any,
-        ) -> Any:
-            formula = as_formula and "formula"
-            asked = {"--json": as_json and "json", "--latex": formula, "--as": language, "--format": form}
+        def with_form(*arguments: Any, **given: Any) -> Any:
+            asked = {settings[name][0]: given.pop(f"form_{name}", None) for name in helps}
             chosen = {name: value for name, value in asked.items() if value}
             if len(chosen) > 1:
                 raise click.UsageError(f"{' and '.join(chosen)} exclude each other")
-            if not chosen and suffixes is not None and given["output"] is not None:
-                chosen = {"--output": suffixes.get(given["output"].suffix.lower(), default)}
+            if not chosen and given.get("output") is not None:
+                chosen["--output"] = suffixes.get(given["output"].suffix.lower(), default)
             return command(*arguments, form=next(iter(chosen.values()), default), **given)
 
-        for option in options:
-            with_form = option(with_form)
+        for name, text in reversed(helps.items()):
+            option, attributes = settings[name]
+            with_form = click.option(option, f"form_{name}", help=text, **attributes)(with_form)
         return with_form  # type: ignore[return-value]
 
     return decorate
+
+
+def in_form(form: str, *, others: Callable[..., Any], **writers: Callable[..., Any]) -> Callable[..., Any]:
+    """The writer of this form, or that of all others."""
+    return writers.get(form, others)
 
 
 def _named_settings(option: str, given: Sequence[str], form: str) -> dict[str, str]:
@@ -434,13 +419,6 @@ def _expressions(arguments: Sequence[str]) -> Iterator[str]:
             yield from (text for line in sys.stdin if (text := line.strip()) and not text.startswith("#"))
         except OSError as error:
             raise InputError(f"standard input can't be read: {error.strerror}") from None
-
-
-def in_form(answer: Any, form: str, text: Callable[[], str]) -> str:
-    """The answer as JSON, as a formula, or else the text."""
-    if form == "json":
-        return str(answer.to_json())
-    return str(answer.latex()) if form == "formula" else fitted(text())
 
 
 def fitted(text: str) -> str:

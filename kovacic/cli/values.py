@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from collections import deque
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -54,11 +55,9 @@ def evaluate(equation: str, points: tuple[str, ...], frobenius: str | None, form
     ):
         found = evaluate(equation, places, derivative=True, frobenius=basis, **given)
     for place, (y, dy) in zip(places, found, strict=True):
-        if form == "json":
-            print(json_line({"schema": 1, "input": equation, "x": place, "y": y.to_dict(), "dy": dy.to_dict()}))
-        else:
-            print(f"y({place}) = {y}")
-            print(f"y'({place}) = {dy}")
+        data = {"schema": 1, "input": equation, "x": place, "y": y.to_dict(), "dy": dy.to_dict()}
+        text = f"y({place}) = {y}\ny'({place}) = {dy}"
+        print(options.in_form(form, json=partial(json_line, data), others=partial(str, text))())
     for note in notes:
         print(f"kovacic: {note.message}", file=sys.stderr)
 
@@ -118,7 +117,7 @@ def plot(equation: str, start: str, stop: str, output: Path, **given: Any) -> No
     json="One line of JSON.",
     latex="A LaTeX formula.",
     default="summary",
-    choice="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; theorem and proof for a LaTeX "
+    format="The theorem as a paper prints it: text; Markdown with formulas between dollar signs; theorem and proof for a LaTeX "
     "document (amsmath, amssymb, amsthm, graphicx); or a page of its own for a browser.",
 )
 @click.option("--var", metavar="NAME", help="The name of the variable, by default x; all other names are parameters.")
@@ -146,13 +145,14 @@ def conditions(equation: str, form: str, everything: bool, explained: bool, samp
     with options.waiting("searching"):
         answer = conditions(equation, **given)
         report = None if samples is None else answer.check(samples)
-        if form in ("text", "markdown", "latex", "html"):
-            theorem = answer.theorem(format=form).rstrip("\n")
-            shown = options.fitted(theorem) if form == "text" else theorem
-        else:
-            shown = options.in_form(
-                answer, form, lambda: answer.explain() if explained else answer.text(all=everything)
-            )
+        shown = options.in_form(
+            form,
+            json=answer.to_json,
+            formula=answer.latex,
+            summary=lambda: options.fitted(answer.explain() if explained else answer.text(all=everything)),
+            text=lambda: options.fitted(answer.theorem()),
+            others=lambda: answer.theorem(format=form),
+        )().rstrip("\n")
     print(shown)
     if report is not None:
         stream = sys.stdout if form == "summary" else sys.stderr
@@ -195,7 +195,9 @@ def spectrum(potential: str, start: str, stop: str, form: str, picture: str | No
 
     with options.waiting("searching"):
         answer = spectrum(potential, domain=(start, stop), **given)
-    print(options.in_form(answer, form, lambda: answer.text(shell=True)))
+    text = partial(answer.text, shell=True)
+    shown = options.in_form(form, json=answer.to_json, formula=answer.latex, others=lambda: options.fitted(text()))
+    print(shown())
     if picture is not None:
         answer.plot().savefig(picture)
     return Exit.DECIDED if answer.is_decided or answer.numeric else Exit.UNDECIDED
@@ -247,5 +249,6 @@ def eigenvalues(
         finally:
             found = problem.answer()
             if found or problem.complete:
-                print(json_line({"schema": 1, "input": equation, **found.to_dict()}) if form == "json" else found)
+                data = {"schema": 1, "input": equation, **found.to_dict()}
+                print(options.in_form(form, json=json_line, others=lambda _: found)(data))
     return Exit.DECIDED if len(found) == count or found.complete else Exit.UNDECIDED

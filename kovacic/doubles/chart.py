@@ -34,7 +34,7 @@ from kovacic.enclosure.way import States
 from kovacic.errors import InputError, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Limits, check_time, count_work
 from kovacic.reading.change_of_variable import function_of_x, without_change
-from kovacic.writing.document import FORMATS, Table
+from kovacic.writing.document import notebook_table
 
 #: Bits for whatever becomes a double-double: more than twice those of one.
 PRECISION = 256
@@ -71,8 +71,7 @@ class Measured(NamedTuple):
 def facts(kind: str, region: Region, measured: Measured | None, **more: str) -> str:
     """The HTML of a function for notebooks: where it is defined, and its error in units in the last place."""
     error = "not measured" if measured is None else f"{measured}, in units in the last place"
-    rows = [("function", kind), ("defined on", str(region)), *more.items(), ("error", error)]
-    return FORMATS["html"].render([Table((), rows)]).rstrip()
+    return notebook_table([("function", kind), ("defined on", str(region)), *more.items(), ("error", error)])
 
 
 @dataclass(frozen=True)

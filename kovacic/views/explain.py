@@ -35,8 +35,8 @@ from kovacic.views.sentences import (
 from kovacic.views.steps import Steps
 from kovacic.writing.breaking import LINE
 from kovacic.writing.document import (
-    FORMATS,
     Block,
+    Format,
     Formula,
     Heading,
     Paragraph,
@@ -81,10 +81,12 @@ def explain_answer(answer: Answer, *, format: str = "text", solutions: bool = Tr
     """The derivation, as `Solution.explain` describes it."""
     chosen = format_of(format)
     blocks = document(answer, solutions=solutions)
-    if format != "html":
+    if not chosen.has_pictures:
         return chosen.render(blocks)
     # The equation and the answer (the first two headings), a table of contents, and the rest.
-    picture = "" if answer.series else _picture(answer)  # values of these solutions differ by thousands of digits
+    picture = (
+        "" if answer.series else _picture(answer, chosen)
+    )  # values of these solutions differ by thousands of digits
     starts = [k for k, block in enumerate(blocks) if isinstance(block, Heading)]
     titles = [block.text for block in blocks[starts[2] :] if isinstance(block, Heading)]
     if picture:
@@ -121,13 +123,13 @@ def document(answer: Answer, *, solutions: bool = True) -> list[Block]:
     return blocks
 
 
-def _picture(answer: Answer) -> str:
+def _picture(answer: Answer, chosen: Format) -> str:
     """A picture of solutions, or the limit that prevented it; empty without values, NumPy or matplotlib."""
-    heading = FORMATS["html"].heading(_PICTURE, 2)
+    heading = chosen.heading(_PICTURE, 2)
     try:
         figure, caption = _figure(answer)
     except LimitExceeded as limit:
-        why = FORMATS["html"].render([say(f"There is no picture: {limit}.")])
+        why = chosen.render([say(f"There is no picture: {limit}.")])
         return f"\n{heading}\n\n{why}\n"
     except (KovacicError, ImportError, OverflowError):
         return ""

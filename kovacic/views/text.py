@@ -160,7 +160,7 @@ def latex_view(answer: Answer) -> str:
 
 def html_view(answer: Answer) -> str:
     """A table of status, case, group, solutions and check."""
-    from kovacic.writing.document import FORMATS, Table
+    from kovacic.writing.document import notebook_table
 
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
     if answer.equation is not None and not answer.equation.is_normal_form:
@@ -179,7 +179,7 @@ def html_view(answer: Answer) -> str:
     rows += _rows_of_solutions(answer)
     rows.append(("verified", "yes, by independent code" if answer.verified else "no"))
     rows += [("note", notice) for notice in answer.notices]
-    return FORMATS["html"].render([Table((), rows)]).rstrip()
+    return notebook_table(rows)
 
 
 def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:

@@ -67,15 +67,12 @@ def theorem_text(answer: ParametricAnswer, *, format: str = "text") -> str:
     """
     chosen = format_of(format)
     written = blocks(answer)
-    if format != "latex":
+    if chosen.environment is None:
         return chosen.document(f"y'' = {answer.right.text}", written)
     start, end = written.index(_PROOF_HEADING), written.index(_REFERENCES)
     # The references keep their heading.
     environments = ("theorem", written[1:start]), ("proof", written[start + 1 : end])
-    # Ragged lines, as in `explain`, end with their group: they aren't left behind in the author's document.
-    parts = [
-        f"\\begin{{{name}}}\\raggedright\n{chosen.render(inside)}\\end{{{name}}}\n" for name, inside in environments
-    ]
+    parts = [chosen.environment(name, chosen.render(inside)) for name, inside in environments]
     return "\n".join([*parts, f"{{{chosen.render(written[end:])}\\par}}\n"])
 
 

@@ -66,7 +66,10 @@ Block = Heading | Paragraph | Formula | Table
 
 @dataclass(frozen=True)
 class Format:
-    """The functions that write the parts of a document; `table` takes rows of cells as text, the head first."""
+    """The functions that write the parts of a document; `table` takes rows of cells as text, the head first.
+
+    `environment` writes a theorem or a proof, where the format has such.
+    """
 
     heading: Callable[[str, int], str]
     math: Callable[[Math], str]
@@ -75,6 +78,8 @@ class Format:
     plain: Callable[[str], str]
     paragraph: Callable[[str], str] = str
     page: Callable[[str, str], str] = lambda title, body: body
+    environment: Callable[[str, str], str] | None = None
+    has_pictures: bool = False
 
     def document(self, title: str, blocks: Sequence[Block]) -> str:
         """The document on its own; `title` is that of a page of HTML."""
@@ -232,6 +237,7 @@ def _html_formula(math: Math) -> str:
         return f"{wide}{_code(math)}</div>"
 
 
+#: The formats of documents, by their names: the one place where one is chosen.
 FORMATS = {
     "text": Format(
         heading=_text_heading,
@@ -253,6 +259,8 @@ FORMATS = {
         formula=_latex_formula,
         table=_latex_table,
         plain=escaped.latex,
+        # Ragged lines end with their group: they aren't left behind in the author's document.
+        environment=lambda name, body: f"\\begin{{{name}}}\\raggedright\n{body}\\end{{{name}}}\n",
     ),
     "html": Format(
         heading=lambda text, level: f'<h{level} id="{anchor(unescape(text))}">{text}</h{level}>',
@@ -262,15 +270,21 @@ FORMATS = {
         plain=escaped.html,
         paragraph=lambda text: f"<p>{text}</p>",
         page=lambda title, body: _page(title, body),
+        has_pictures=True,
     ),
 }
 
 
-def format_of(name: str) -> Format:
+def format_of(name: str = "text") -> Format:
     """The format with this name.  Raises `ValueError` for an unknown one."""
     if name not in FORMATS:
         raise ValueError(f"unknown format {name!r}; available: {', '.join(FORMATS)}")
     return FORMATS[name]
+
+
+def notebook_table(rows: Sequence[Sequence[Sentence]]) -> str:
+    """Rows of a title and its contents, in HTML."""
+    return FORMATS["html"].render([Table((), rows)]).rstrip()
 
 
 def _page(title: str, body: str) -> str:
