@@ -267,7 +267,7 @@ def explain(
     from kovacic.general_solution import is_problem
 
     if cite:
-        options.refuse({"form", "output", "no_solutions"}, "with --cite")
+        options.refuse({"form_format", "output", "no_solutions"}, "with --cite")
     if output is not None and (len(equations) > 1 or equations == ("-",)):
         raise click.UsageError("--output takes the explanation of one equation")
 
