@@ -238,10 +238,13 @@ def module_of(file: str) -> ModuleType:
 
 
 @cache
-def functions_of(file: str) -> list[FunctionType]:
-    """The functions that were defined in a file, wherever they are referred to."""
-    path = str(ROOT / file)
-    return [f for f in gc.get_objects() if isinstance(f, FunctionType) and f.__code__.co_filename == path]
+def functions() -> dict[str, list[FunctionType]]:
+    """The functions that were defined in each file, wherever they are referred to."""
+    found = defaultdict[str, list[FunctionType]](list)
+    for f in gc.get_objects():
+        if isinstance(f, FunctionType):
+            found[f.__code__.co_filename].append(f)
+    return found
 
 
 def plant(fault: Fault, functions: list[FunctionType]) -> None:
@@ -277,13 +280,15 @@ class Runner:
         self.items = session.items
         for file in self.files:
             module_of(file)
-        gc.unfreeze()  # what the tests have put aside, for `functions_of`
+        gc.unfreeze()  # what the tests have put aside, for `functions`
+        functions()
         wanted = [fault for file in self.files for fault in faults(file)]
         Random(self.options.seed).shuffle(wanted)
         wanted = wanted[: self.options.sample]
         files = {fault.file for fault in wanted}
         self.seconds, self.reached = self.covered(files) if self.options.contexts else self.reach()
         part = self.options.part
+        gc.freeze()  # a child that looks for garbage among a million objects copies the memory of its parent
         for fault in wanted:
             done = recorded(part)
             if fault.name in done["killed"] or (fault.name in done["survived"] and not self.options.again):
@@ -355,7 +360,7 @@ class Runner:
         if not fault.in_function:
             lines = [line for line in self.reached if line.startswith(f"{fault.file}:")]
         tests = {test for line in lines for test in self.reached.get(line, []) if self.seconds[test] < SLOWEST}
-        return bool(tests) and self.fork(self.fails, fault, functions_of(fault.file), tests, limit=600.0)
+        return bool(tests) and self.fork(self.fails, fault, functions()[str(ROOT / fault.file)], tests, limit=600.0)
 
     def fork(self, work: Any, *arguments: Any, limit: float) -> bool:
         """Is the work's answer true, or does it end in another way, or not at all?"""
