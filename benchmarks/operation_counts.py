@@ -204,7 +204,7 @@ def measure() -> dict[str, dict[str, Any]]:
     load_engine()
     found = {}
     for name, S in corpus().items():
-        for remembered in (splitting._remembered, splitting.splits_rarely):
+        for remembered in (splitting._extended, splitting.splits_rarely):
             remembered.cache_clear()
         with counting() as counts:
             kovacic.solve(S)

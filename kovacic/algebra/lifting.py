@@ -105,7 +105,7 @@ def lifted(field: Field, image: Callable[[Homomorphism], Any], is_right: Callabl
 def inverse_by_primes(element: Poly, modulus: Poly) -> Any:
     """The inverse modulo a polynomial, from inverses modulo primes: as many as the result needs.
 
-    Euclid's algorithm, and flint's over Q, work with numbers as large as resultants.
+    Euclid's algorithm over a number field works with numbers as large as resultants.
     """
     if element.gcd(modulus).degree > 0:
         raise ZeroDivisionError("not invertible: the polynomials have a common factor")

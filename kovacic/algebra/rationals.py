@@ -12,12 +12,11 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.homomorphism import BadPrimeError, Collector, Homomorphism
-from kovacic.algebra.lifting import Residues, inverse_by_primes, primes
+from kovacic.algebra.lifting import Residues, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
-#: The degree of a modulus up to which Euclid's algorithm over Q is the fastest way to an inverse.
-_EUCLID_OVER_Q = 16
+
 #: Above this degree exact arithmetic takes long: it is estimated first, done modulo primes, or in another process.
 LARGE_DEGREE = 400
 #: FLINT's seconds for factors over Z, at most, over the cube of the degree, where there are few factors modulo a prime.
@@ -30,7 +29,7 @@ _SMOOTH_BITS = 15
 _PRODUCT_SECONDS = 1.6e-9
 #: FLINT's seconds for each bit of a coefficient times the squares of degrees: an exact division (2e-11), a gcd (1.2e-11).
 _QUOTIENT_SECONDS = 1.6e-11
-#: Above this degree products and divisions look at the clock, and powers are factored as such: gcds with derivatives are slow.
+#: Above this degree products and divisions look at the clock.
 _LOOK_DEGREE = 100
 #: A division by a divisor of degree n looks after each n/8 terms of the quotient, but not before `_LOOK_DEGREE`.
 _PIECES_OF_A_DIVISION = 8
@@ -157,9 +156,6 @@ class RationalPoly(Poly):
             foresee_move(self.degree * point.degree, self.height_bits(), point.height_bits())
         return RationalPoly(fmpq_poly([self.rep(point.rep[0])]) if constant else self.rep(point.rep))
 
-    def __divmod__(self, other: Poly | Scalar) -> tuple[RationalPoly, RationalPoly]:
-        return self._divmod(other) if type(other) is RationalPoly else super().__divmod__(other)
-
     def _divmod(self, other: RationalPoly) -> tuple[RationalPoly, RationalPoly]:
         quotient, remainder = _long_division(self.rep, other.rep)
         return RationalPoly(quotient), RationalPoly(remainder)
@@ -209,8 +205,10 @@ class RationalPoly(Poly):
             return None
 
     def inverse_modulo(self, modulus: Poly) -> RationalPoly:
-        small = modulus.degree <= _EUCLID_OVER_Q
-        return super().inverse_modulo(modulus) if small else inverse_by_primes(self, modulus)
+        common, inverse, _ = self.rep.xgcd(modulus.rep)  # type: ignore[attr-defined]
+        if common.degree() > 0:
+            raise ZeroDivisionError("not invertible: the polynomials have a common factor")
+        return RationalPoly(inverse)
 
     def derivative(self) -> RationalPoly:
         return RationalPoly(self.rep.derivative())
@@ -315,7 +313,7 @@ class RationalField(Field):
             found = computed_apart(what, _integer_factors, _integer_coefficients(numerator))
             factors = [(fmpz_poly(list(factor)), k) for factor, k in found]
         else:
-            factors = _factored_over_z(numerator)
+            factors = numerator.factor()[1]
         if len(factors) > 1:
             factors.sort(key=lambda pair: (pair[0].degree(), _integer_coefficients(pair[0])))
         return [(RationalPoly(fmpq_poly(f, f.leading_coefficient())), k) for f, k in factors]
@@ -416,37 +414,9 @@ def _may_take_long(polynomial: Any) -> bool:
     return len(factors) > _FEW_MODULAR_FACTORS or any(k > 1 for _, k in factors)  # a few modulo p are soon put together
 
 
-def _factored_over_z(polynomial: Any) -> list[tuple[Any, int]]:
-    """The factors; of a power of a squarefree polynomial, as which a prime shows it, those of its root."""
-    degree = polynomial.degree()
-    if degree > _LOOK_DEGREE and (image := nmod_poly(polynomial, next(primes()))).degree() == degree:
-        radical = image // image.gcd(image.derivative())
-        n, rest = divmod(degree, radical.degree())
-        leading = int(image.leading_coefficient())  # of the radical, too
-        if n > 1 and not rest and image * pow(leading, n - 1, image.modulus()) == radical**n:
-            root = _monic_root(fmpq_poly(polynomial, polynomial.leading_coefficient()), n)
-            if root is not None:
-                return [(factor, n * k) for factor, k in root.numer().factor()[1]]
-    return polynomial.factor()[1]  # type: ignore[no-any-return]
-
-
-def _monic_root(power: Any, n: int) -> Any:
-    """The monic r with r^n = power, from the leading coefficients by Newton's iteration for 1/r; None without one."""
-    size = power.degree() // n + 1
-    top = fmpq_poly(power.coeffs()[: -size - 1 : -1])
-    inverse = fmpq_poly([1])
-    known = 1
-    while known < size:
-        known = min(2 * known, size)
-        inverse += inverse.mul_low(1 - top.mul_low(inverse.pow_trunc(n, known), known), known) / n
-    series = top.mul_low(inverse.pow_trunc(n - 1, size), size)
-    root = fmpq_poly([series[size - 1 - i] for i in range(size)])
-    return root if root**n == power else None
-
-
 def _integer_factors(coefficients: tuple[int, ...]) -> list[tuple[tuple[int, ...], int]]:
     """The factors of an integer polynomial, in a form that pickles."""
-    return [(_integer_coefficients(f), k) for f, k in _factored_over_z(fmpz_poly(list(coefficients)))]
+    return [(_integer_coefficients(f), k) for f, k in fmpz_poly(list(coefficients)).factor()[1]]
 
 
 def _integer_coefficients(polynomial: Any) -> tuple[int, ...]:

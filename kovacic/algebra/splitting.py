@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, lru_cache
 from itertools import count, islice
-from threading import RLock
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_mat, nmod_mat, nmod_poly
@@ -62,43 +61,29 @@ def bundles(
     base: Field, modulus: Poly, allowed: Callable[[int], bool] | None = None
 ) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
     """All homomorphisms over each prime that splits completely; one over each with a simple root where those are rare."""
-    if allowed is None:
-        return iter(_remembered(base, modulus))
-    return _bundles(base, modulus, allowed)
-
-
-def _bundles(
-    base: Field, modulus: Poly, allowed: Callable[[int], bool] | None = None
-) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
-    complete = not splits_rarely(base, modulus)
+    needed = 1 if splits_rarely(base, modulus) else modulus.degree
     values = [base.rational_value(c) for c in modulus]
     if base.ground != QQ and None not in values:
         # c lies over Q while there are parameters: then the prime decides about splitting, not the point.
         allowed = _splitting(QQ.poly([v for v in values if v is not None]), allowed)
     for bundle in base.bundles(allowed):
         check_time()
-        try:
-            found = _extended(bundle, modulus, complete)
-        except BadPrimeError:
-            continue
-        if found is not None:
+        if found := _extended(bundle, modulus, needed):
             yield found
 
 
-def _extended(
-    bundle: Sequence[Homomorphism], modulus: Poly, complete: bool
-) -> tuple[ExtensionHomomorphism, ...] | None:
-    """The homomorphisms of K(c) over these of K: to all roots of the modulus, or unless `complete` to one simple root each.
-
-    None if there are fewer roots.  Raises `BadPrimeError`.
-    """
+@lru_cache(maxsize=4096)  # every computation in a field begins with the same primes
+def _extended(bundle: tuple[Homomorphism, ...], modulus: Poly, needed: int) -> tuple[ExtensionHomomorphism, ...]:
+    """The homomorphisms of K(c) over these of K: to as many simple roots of the modulus; empty if there are fewer."""
     # The roots over one homomorphism of K stay together: `coordinates` takes them in blocks of n.
     found: list[ExtensionHomomorphism] = []
-    needed = modulus.degree if complete else 1
     for h in bundle:
-        roots = list(islice(simple_roots(h.keeping_degree(modulus)), needed))
+        try:
+            roots = list(islice(simple_roots(h.keeping_degree(modulus)), needed))
+        except BadPrimeError:
+            return ()
         if len(roots) < needed:
-            return None
+            return ()
         found += [ExtensionHomomorphism(h, root) for root in roots]
     return tuple(found)
 
@@ -118,37 +103,6 @@ def _splitting(modulus: Poly, allowed: Callable[[int], bool] | None) -> Callable
         return _splits(modulus, p) and (allowed is None or allowed(p))
 
     return splits
-
-
-class _Remembered:
-    """The bundles of a field, searched once.
-
-    A search that a limit or the user has broken off begins anew: its generator is at its end, which isn't that of the bundles.
-    """
-
-    def __init__(self, base: Field, modulus: Poly) -> None:
-        self._field = base, modulus
-        self._found: list[tuple[ExtensionHomomorphism, ...]] = []
-        self._search: Iterator[tuple[ExtensionHomomorphism, ...]] | None = None
-        self._lock = RLock()  # a generator can't be advanced by two threads at once
-
-    def __iter__(self) -> Iterator[tuple[ExtensionHomomorphism, ...]]:
-        for k in count():
-            with self._lock:
-                while len(self._found) <= k:
-                    if self._search is None:
-                        self._search = islice(_bundles(*self._field), len(self._found), None)
-                    try:
-                        self._found.append(next(self._search))
-                    except BaseException:
-                        self._search = None
-                        raise
-            yield self._found[k]
-
-
-@lru_cache(maxsize=64)
-def _remembered(base: Field, modulus: Poly) -> _Remembered:
-    return _Remembered(base, modulus)
 
 
 def coordinates(

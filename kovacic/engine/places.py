@@ -26,7 +26,7 @@ Reference: J. Kovacic, J. Symb. Comp. 2 (1986), section 2.1; the sharper conditi
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from math import isqrt
@@ -35,7 +35,7 @@ from typing import Any
 from flint import nmod_poly
 
 from kovacic.algebra.factors import expansions, product
-from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
+from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.modular import series_solution, simple_roots, translate
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
@@ -53,21 +53,6 @@ class Kind(Enum):
     RAMIFIED = "irregular singular point, ramified"
 
 
-@dataclass(frozen=True, eq=False)
-class Images:
-    """A fraction modulo primes, each image computed once for all places."""
-
-    num: Poly
-    den: Poly
-    found: dict[Homomorphism, tuple[Any, Any]] = field(default_factory=dict)
-
-    def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
-        """Numerator and denominator; raises `BadPrimeError` if the denominator loses its degree."""
-        if h not in self.found:
-            self.found[h] = (h(self.num), h.keeping_degree(self.den))
-        return self.found[h]
-
-
 @dataclass(frozen=True)
 class Place:
     """All roots of one irreducible factor, or infinity (the root 0 in the coordinate z = 1/x).
@@ -83,7 +68,6 @@ class Place:
     den: Poly
     near: tuple[Poly, Poly]
     budget: Budget
-    images: Images = field(compare=False, repr=False)
 
     @cached_property
     def delta_squared(self) -> Poly | None:
@@ -144,8 +128,8 @@ class Place:
             try:
                 root = next(simple_roots(h.keeping_degree(self.factor)), None)
                 if root is not None:
-                    num, den = self.images.modulo(h)
-                    equation = local_equation(translate(num, root), translate(den, root), 2)
+                    num, den = translate(h(self.num), root), translate(h.keeping_degree(self.den), root)
+                    equation = local_equation(num, den, 2)
                     return logarithm_obstruction(equation, n) != 0
             except BadPrimeError:
                 pass
@@ -223,9 +207,8 @@ def analyse(S: RatFunc, budget: Budget) -> Problem:
     infinity = (S.field.poly([0, 1]), order)
     places = []
     for above, below, found, at_end in ((S.num, S.den, factors, False), (num, den, [infinity], True)):
-        images = Images(above, below)
         for (p, k), near in zip(found, expansions(above, below, found), strict=True):
-            places.append(Place(p, at_end, k, above, below, near, budget, images))
+            places.append(Place(p, at_end, k, above, below, near, budget))
     return Problem(S, tuple(places), budget)
 
 

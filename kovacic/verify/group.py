@@ -20,7 +20,7 @@ from kovacic.verify.evidence import Inspector
 from kovacic.verify.factors import inverse
 from kovacic.verify.identity import form_numerators, is_rational, rational_residues
 from kovacic.verify.torsion import order_holds
-from kovacic.verify.zeros import residue_by_digits
+from kovacic.verify.zeros import last_of_quotient, taylor
 
 #: The name of a family, as in `kovacic.galois.Kind`, and its parameter.
 _Named = tuple[str, int | None]
@@ -110,11 +110,14 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
         else:
             den = den * p ** int(-value)
     for point in inspector.points[:-1]:
-        rest, order = num.remove(point.factor)
-        if order:
-            modulus = point.factor**order
-            if residue_by_digits(den * inverse(rest, modulus) % modulus, point.factor, order):
+        p = point.factor
+        rest, order = num.remove(p)
+        if p.degree == 1 and order:
+            modulus = p**order
+            if (den * inverse(rest, modulus) % modulus)(p.field.poly([-p[0], 1]))[order - 1]:
                 return False
+        elif order and last_of_quotient(taylor(den, p, order), taylor(num, p, 2 * order)[order:], p):
+            return False
     return True
 
 

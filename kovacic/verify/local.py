@@ -7,7 +7,7 @@ number.  If k > 2, the point is irregular.  Infinity is z = 0 for S(1/z)/z^4.  [
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 from typing import Any
@@ -124,14 +124,10 @@ class Point:
 
     def localised(self, h: Homomorphism, root: int) -> tuple[Any, Any]:
         """M and E with S = M/(t^k E) at a root modulo p, k the order of the pole (2 for order 1), E(0) not 0."""
-        if self.expansions is None:
-            above, below = h(self.num), h.keeping_degree(self.den)
-        else:
-            above, below = self.expansions.modulo(h)
-        den = translated(below, root)
+        den = translated(h.keeping_degree(self.den), root)
         if any(int(den[i]) for i in range(self.order)) or not int(den[self.order]):
             raise BadPrimeError("the order of a pole changes")
-        num = translated(above, root)
+        num = translated(h(self.num), root)
         return num.left_shift(max(2 - self.order, 0)), den.right_shift(self.order)
 
 
@@ -165,19 +161,12 @@ class Expansions:
 
     S: RatFunc
     factors: list[tuple[Poly, int]]
-    _images: dict[Homomorphism, tuple[Any, Any]] = field(default_factory=dict)
 
     def at(self, factor: Poly) -> tuple[Poly, Poly]:
         first, order = self.factors[0]
         if factor == first:
             return _expansion_near(self.S.num, self.S.den, first, order)
         return self.together[factor]
-
-    def modulo(self, h: Homomorphism) -> tuple[Any, Any]:
-        """Numerator and denominator modulo a prime."""
-        if h not in self._images:
-            self._images[h] = (h(self.S.num), h.keeping_degree(self.S.den))
-        return self._images[h]
 
     @cached_property
     def together(self) -> dict[Poly, tuple[Poly, Poly]]:
