@@ -16,7 +16,6 @@ from kovacic.algebra.lifting import Residues, primes
 from kovacic.algebra.poly import Field, Poly, Scalar
 from kovacic.limits import check_duration, check_time, may_be_late, watched_seconds
 
-
 #: Above this degree exact arithmetic takes long: it is estimated first, done modulo primes, or in another process.
 LARGE_DEGREE = 400
 #: FLINT's seconds for factors over Z, at most, over the cube of the degree, where there are few factors modulo a prime.
