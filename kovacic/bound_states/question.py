@@ -13,7 +13,7 @@ from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.signs import Signs, Uncovered, exceeds
 from kovacic.equation import EULER, PI, Parsed
 from kovacic.errors import InputError
-from kovacic.general_solution.question import ConditionReader, as_mapping
+from kovacic.general_solution.conditions import read_conditions
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.integers import free_letter
@@ -144,10 +144,9 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
     if not isinstance(boundary, str) or "=" not in boundary:
         hint = f'boundary="{FRIEDRICHS}", or a condition at an end: boundary="y\'(0) = 0"'
         raise InputError(f"{boundary!r} isn't a boundary condition", hint=hint)
-    reader = ConditionReader(sympy.Function("y")(sympy.Symbol(variable)))
+    y = sympy.Function("y")(sympy.Symbol(variable))
     wishes: dict[Any, Robin] = {}
-    for key, value in as_mapping(boundary).items():
-        condition = reader.read(key, value)
+    for condition in read_conditions(boundary, y):
         at, *others = {*condition.points}
         wish = Robin(*condition.by_order)
         is_one_at_an_end = not others and at.is_finite and at in ends and at not in wishes and condition.value == 0

@@ -17,9 +17,8 @@ from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Question, with_assumptions
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.validity import Validity, needed_for
+from kovacic.general_solution.validity import Validity, ZeroSet, gamma_zeros, needed_for
 from kovacic.general_solution.zero import differs_from_zero, letter_samples
-from kovacic.general_solution.zero_set import ZeroSet, gamma_zeros
 
 Expr = Any  # SymPy publishes no types
 #: The last answers, the newest first, for `validity` of their equations.
@@ -100,9 +99,10 @@ class ProblemAnswer:
     def validity(self) -> Validity:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
         eqs = [eq.xreplace(self.known) for eq in self.equations]
-        found = needed_for([eq.rhs for eq in eqs], eqs[0].lhs.args[0], self.pair_exceptions)
+        formulas = [eq.rhs for eq in eqs]
+        found = needed_for(formulas, eqs[0].lhs.args[0], self.pair_exceptions, self.hidden_relations(eqs[0]))
         return Validity(
-            tuple(relation.xreplace(self.own) for relation in (*found.real, *self.hidden_relations(eqs[0]))),
+            tuple(relation.xreplace(self.own) for relation in found.real),
             tuple(e.xreplace(self.own) for e in found.exceptions),
             found.has_real_parts,
         )
@@ -174,9 +174,7 @@ class FirstOrderAnswer(ProblemAnswer):
         if n.is_integer or not (1 / (1 - n)).is_integer or w == 0:
             return ()
         u = sympy.cancel(w * self.equation.r / (w.diff(x) - self.equation.q * w))  # w^n = (w' - q w)/r, and u = w/w^n
-        number, rest = sympy.factor(u).as_coeff_Mul()
-        rest = sympy.Mul(*(factor for factor in sympy.Mul.make_args(rest) if not isinstance(factor, sympy.exp)))
-        return ((rest if number > 0 else -rest) >= 0,)
+        return (sympy.GreaterThan(sympy.factor(u), 0, evaluate=False),)
 
 
 @dataclass(frozen=True, repr=False)

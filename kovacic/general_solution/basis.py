@@ -29,8 +29,8 @@ from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.general_solution.integrands import NUMBERS, radicands
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size, slope
+from kovacic.general_solution.validity import ZeroSet, independent_exceptions
 from kovacic.general_solution.zero import generic_samples, quadrant_points
-from kovacic.general_solution.zero_set import ZeroSet, independent_exceptions
 from kovacic.limits import check_time, manageable
 from kovacic.reading.change_of_variable import function_of_x
 from kovacic.solution import Solution
@@ -180,7 +180,7 @@ def multiple_of(
     for quotient in chain(_quotients(w, y1, y2, x), _TURNS):
         check_time()
         c = in_single_waves(quotient or 0)
-        is_constant = c != 0 and c.is_finite is not False and not c.has(Function, sympy.nan, sympy.zoo)
+        is_constant = c != 0 and not c.has(Function, sympy.nan, sympy.zoo)
         if is_constant and _is_wronskian(c * w, y1, y2, x, integers):
             return _simplified(c) * w
     return None

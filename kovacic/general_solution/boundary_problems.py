@@ -13,17 +13,11 @@ from typing import Any
 import sympy
 from sympy import Symbol, Tuple, oo, simplify
 
+from kovacic.closed_form.atoms import is_seen_negative
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.question import (
-    Condition,
-    ConditionReader,
-    Question,
-    apart,
-    as_mapping,
-    free_constants,
-    periodicity,
-)
+from kovacic.general_solution.conditions import Condition, apart, periodicity, read_conditions
+from kovacic.general_solution.question import Question, free_constants
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
 from kovacic.reading.names import words_among
@@ -33,6 +27,7 @@ from kovacic.sturm_liouville.families import EigenvalueFamily, family
 from kovacic.sturm_liouville.levels import Eigenvalues
 from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, ball, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem
+from kovacic.writing.formula import free_name
 
 Expr = Any  # SymPy publishes no types
 PARAMETER = "lambda"
@@ -118,7 +113,6 @@ def eigenvalues(
 
 
 _PARAMETERS = ("lambda", "lamda", "λ", "mu", "μ")
-_NUMBERS = ("n", "k", "m", "j", "n_")
 
 
 def read_eigenproblem(
@@ -138,8 +132,7 @@ def read_eigenproblem(
     x = function.args[0]
     if not isinstance(conditions, Mapping | str | None):
         raise InputError("conditions are a text or a mapping", hint='"y(0)=0, y(1)=0"')
-    reader = ConditionReader(function)
-    given = [reader.read(key, value).in_symbols(values) for key, value in as_mapping(conditions).items()]
+    given = [condition.in_symbols(values) for condition in read_conditions(conditions, function)]
     ends = _interval_ends(given, domain)
     wrap, wishes = wishes_of(given, ends)
     pieces, B, sign = normal_form(x, coefficients, ends)
@@ -277,8 +270,8 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
         return None
     c0 = simplify(c - parameter * c1)
     taken = {s.name for s in letters | c0.free_symbols}
-    n = Symbol(next(name for name in _NUMBERS if name not in taken), integer=True)
-    sign = -1 if _with_positive_symbols(c1).is_negative else 1
+    n = Symbol(free_name(taken, *"nkmj"), integer=True)
+    sign = -1 if is_seen_negative(c1) else 1
     found = family(x, B, c0, sign * c1, sign * parameter, ends, wrap or wishes, n=n)
     if found is None:
         return None
@@ -305,15 +298,11 @@ def _homogeneous_conditions(question: Question) -> tuple[tuple[Expr, Expr], int,
     if not is_homogeneous or len(points) != 2 or any(point.is_infinite for point in points):
         return None
     low, high = points
-    if _with_positive_symbols(high - low).is_nonpositive:
+    if is_seen_negative(high - low):
         low, high = high, low
     with suppress(InputError):  # other conditions
         return (low, high), *wishes_of(given, (low, high))
     return None
-
-
-def _with_positive_symbols(e: Expr) -> Expr:
-    return e.xreplace({s: Symbol(s.name, positive=True) for s in e.free_symbols})
 
 
 def _said_of_eigenvalue(found: EigenvalueFamily, parameter: Expr, sign: int) -> str:

@@ -34,7 +34,8 @@ from kovacic.closed_form.cuts import cut_of, cuts_of
 from kovacic.closed_form.jets import ANTIDERIVATIVES, MATHIEU, jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
-from kovacic.general_solution.question import Condition, Question
+from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, split_at_jumps
 from kovacic.general_solution.zero import NOT_EVALUATED, ball_of, generic_samples, known_jet, opposite, residual_at
 from kovacic.limits import check_time
@@ -323,8 +324,7 @@ class _Course:
             # m x + c is real there, or about pi/2
             place = (1.58 - c.real) / m.real if is_tangent else -c.imag / (m.imag or inf)
             rounded = fmpq(round(100 * place), 100)
-            if not _GRID_POINTS[0] < rounded < _GRID_POINTS[-1]:
-                points |= {rounded - fmpq(37, 100), rounded + fmpq(37, 100)}
+            points |= {rounded - fmpq(37, 100), rounded + fmpq(37, 100)}
         return sorted(points)
 
     def _suspects(self, a: Any, b: Any, halvings: int) -> Iterator[tuple[Any, Any]]:

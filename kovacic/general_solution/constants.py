@@ -29,10 +29,11 @@ from sympy.simplify.fu import TR2i
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
-from kovacic.general_solution.question import Condition, Question
+from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size
+from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
-from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import check_time, manageable
 
 Expr = Any  # SymPy publishes no types
@@ -350,10 +351,3 @@ def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row],
     if open_signs:
         message += f"; assumptions may decide it, as {', '.join(open_signs)}"
     raise NotImplementedError(message)
-
-
-def _without_gammas(ratio: Expr) -> Row:
-    """r C1 + C2 = 0, for r = p/q as p C1 + q C2 = 0 with 1/gamma, which has values everywhere, for gamma."""
-    p, q = sympy.fraction(sympy.powsimp(ratio))
-    common = Mul(*(f for f in ratio.atoms(gamma) if f.free_symbols))
-    return Row(p / common, q / common, S.Zero)

@@ -39,14 +39,19 @@ from kovacic.general_solution.answer import (
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
+from kovacic.general_solution.conditions import apart
 from kovacic.general_solution.constants import CaseOutcome, Determined, ParameterCase, constants_of
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
-from kovacic.general_solution.particular import particular_solution, right_hand_side, with_letters_of_integration
+from kovacic.general_solution.particular import (
+    particular_solution,
+    right_hand_side,
+    starting_at,
+    with_letters_of_integration,
+)
 from kovacic.general_solution.places import (
-    ImpulsesInside,
-    basis_from,
     basis_real_at,
+    impulses_inside,
     is_singular,
     limit_points,
     one_sided,
@@ -56,8 +61,6 @@ from kovacic.general_solution.places import (
 from kovacic.general_solution.question import (
     Question,
     about_letters,
-    apart,
-    as_mapping,
     free_constants,
     has_floats,
     known_letters,
@@ -69,8 +72,8 @@ from kovacic.general_solution.riccati import solved_riccati
 from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.systems import LinearSystem, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
+from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import is_identically_zero
-from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget, Limits, limited
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.notations import ParserTokens
@@ -349,8 +352,7 @@ class _Asked:
 
     def _of_first_order(self, problem: FirstOrderEquation | LinearSystem, eq: Any, ics: Any) -> ProblemAnswer:
         """The answer for one equation, or for two; `eq` is the input."""
-        values = as_mapping(ics)
-        problem = problem.with_values(values)
+        problem = problem.with_values(ics)
         known = known_letters(self.assume, problem.x, problem.letters, problem.conditions)
         problem = problem.in_symbols(known)
         solver = replace(self, var=None, parameters=(), assume={}, special=False).answer
@@ -368,7 +370,7 @@ class _Asked:
         if isinstance(problem, LinearSystem):
             return SystemAnswer(eqs, notices, known=known, exceptional=solved.of_pair)
         (found,) = eqs
-        if has_floats(eq, values):
+        if has_floats(eq, ics):
             found = Eq(found.lhs, with_floats(found.rhs), evaluate=False)
         return FirstOrderAnswer(found, notices, problem, known=known, exceptional=solved.of_pair)
 
@@ -540,11 +542,12 @@ def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderA
     """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
     limits = limit_points(question)
     start = start_of(question, limits)
-    basis = basis_from(question, basis, start)
+    basis = basis_real_at(basis, start)
+    basis = basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
     particular = real_particular(question, basis, particular_solution(basis, start), start)
     family = _Family(question, basis, particular)
-    inside = ImpulsesInside.of(question)
-    determined = constants_of(question, basis, particular, family.names, limits, inside.values)
+    steps, orders, letters = impulses_inside(question)
+    determined = constants_of(question, basis, particular, family.names, limits, steps)
     generic = determined.generic
     value = family.member(generic.values)
     value = in_book_form(value, question.x, family.names if value.has(*family.names) else ())
@@ -556,6 +559,6 @@ def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderA
         if singular:
             said += f" ({' and '.join(singular)} is a singular point of the equation)"
         raise _Contradiction(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
-    unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=inside.numbers)
-    notices = [*inside.notices, *unchecked, *(f"this holds unless {said}" for said in exceptions)]
+    unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=letters)
+    notices = [*orders, *unchecked, *(f"this holds unless {said}" for said in exceptions)]
     return family.answer(value, notices, unchecked, determined)

@@ -14,9 +14,9 @@ from sympy import Integer, Symbol
 from kovacic.equation import parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
+from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.dsolve import answer_to
 from kovacic.general_solution.particular import right_hand_side
-from kovacic.general_solution.question import Condition
 from kovacic.general_solution.riccati import linear_equation
 from kovacic.general_solution.textbook import sums
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
@@ -162,7 +162,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     yield say(f"{source}:")
     letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
     taken = letters.union(*(condition.free_symbols for condition in question.conditions))
-    u, v = ("y1", "y2") if {"y1", "y2"}.isdisjoint(map(str, taken)) else ("u1", "u2")
+    u, v = (free_name(taken, f"y{k}", f"u{k}") for k in (1, 2))
     f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_definition(name, value) for name, value in pair.items())

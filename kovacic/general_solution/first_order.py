@@ -25,14 +25,15 @@ from kovacic.errors import InputError, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_or_limit
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
+from kovacic.general_solution.conditions import Condition, conditions_at, read_conditions
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
-from kovacic.general_solution.question import Condition, ConditionReader, conditions_at, exact_decimals, free_constants
+from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.steps import JUMPING, Apart, in_parts
-from kovacic.general_solution.substitution import by_functions, changed_beside
+from kovacic.general_solution.substitution import by_functions, changed_beside, exact_decimals
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
+from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import is_zero
-from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text
 from kovacic.reading.pieces import Paste
@@ -54,7 +55,7 @@ class OfFirstOrder:
 
     functions: tuple[Expr, ...]
     entries: tuple[Expr, ...]
-    asked: tuple[tuple[Expr, Condition], ...] = ()
+    conditions: tuple[Condition, ...] = ()
     guesses: tuple[str, ...] = ()
 
     def slopes(self) -> tuple[Expr, ...]:
@@ -64,27 +65,19 @@ class OfFirstOrder:
     def in_symbols(self, others: Mapping[Expr, Expr]) -> Self:
         """The equations in other symbols."""
         functions, entries = (tuple(e.xreplace(others) for e in part) for part in (self.functions, self.entries))
-        asked = tuple((f.xreplace(others), condition.in_symbols(others)) for f, condition in self.asked)
-        return replace(self, functions=functions, entries=entries, asked=asked)
+        conditions = tuple(condition.in_symbols(others) for condition in self.conditions)
+        return replace(self, functions=functions, entries=entries, conditions=conditions)
 
-    def with_values(self, ics: Mapping[Any, Any]) -> Self:
-        """With conditions.  Raises `InputError` for one on none of several functions."""
-        functions = {str(f.func): f for f in self.functions}
-        first, *others = functions
-        asked = []
-        for key, value in ics.items():
-            name = str(key).partition("(")[0].strip() if others else first
-            if name not in functions:
-                raise InputError(f"{key} isn't a value of an unknown", hint=f"write {first}(0) = 1, {others[0]}(0) = 0")
-            asked.append((functions[name], ConditionReader(functions[name]).read(key, value)))
-        return replace(self, asked=tuple(asked))
+    def with_values(self, ics: Any) -> Self:
+        """With conditions.  Raises `InputError` as `read_conditions` does."""
+        return replace(self, conditions=tuple(read_conditions(ics, *self.functions)))
 
     def at(self, values: Mapping[Expr, Expr]) -> tuple[tuple[Expr, ...], tuple[Expr, ...], dict[Expr, Any]]:
         """Equations, functions and conditions as for `dsolve`, for particular values of letters."""
         equations = [
             f.diff(self.x) - slope.subs(values) for f, slope in zip(self.functions, self.slopes(), strict=True)
         ]
-        return tuple(equations), self.functions, conditions_at(values, self.asked)
+        return tuple(equations), self.functions, conditions_at(values, self.conditions)
 
     @property
     def x(self) -> Expr:
@@ -94,10 +87,6 @@ class OfFirstOrder:
     def letters(self) -> dict[str, Expr]:
         """The symbols in the coefficients, by name."""
         return {symbol.name: symbol for symbol in sympy.Tuple(*self.entries).free_symbols}
-
-    @property
-    def conditions(self) -> list[Condition]:
-        return [condition for _, condition in self.asked]
 
 
 class FirstOrderEquation(OfFirstOrder):
@@ -123,10 +112,10 @@ class FirstOrderEquation(OfFirstOrder):
     @cached_property
     def value(self) -> tuple[Any, Any]:
         """a and v for w(a) = v, or None twice without a condition.  Raises `InputError` for others, and for more than one."""
-        if not self.asked:
+        if not self.conditions:
             return None, None
         condition = self.conditions[0]
-        if len(self.asked) > 1 or not condition.is_value or condition.terms[0].order:
+        if len(self.conditions) > 1 or not condition.is_value or condition.terms[0].order:
             raise InputError("an equation of first order has one value, at one point", hint='write "w(0)=1"')
         if condition.points[0] in (sympy.oo, -sympy.oo):
             raise InputError(f"{condition.text}: a value determines a solution at a finite point")
@@ -136,8 +125,8 @@ class FirstOrderEquation(OfFirstOrder):
     def of_power(self) -> FirstOrderEquation:
         """The equation of u = w^(1 - n) for p = 0, u' = (1 - n) (r + q u), and its value."""
         m = 1 - self.power
-        asked = tuple((w, replace(condition, value=condition.value**m)) for w, condition in self.asked)
-        return FirstOrderEquation(self.functions, (m * self.r, m * self.q, *LINEAR), asked)
+        conditions = tuple(replace(condition, value=condition.value**m) for condition in self.conditions)
+        return FirstOrderEquation(self.functions, (m * self.r, m * self.q, *LINEAR), conditions)
 
     def homogeneous(self) -> Expr:
         """h with h'/h = q, real at the `place`."""

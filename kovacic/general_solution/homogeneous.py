@@ -19,10 +19,10 @@ from kovacic.equation import Equation, Parsed, parameters_of
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.basis import Basis, kernel, multiple_of
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.places import given_points, limit_points, start_of
+from kovacic.general_solution.places import limit_points, start_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.textbook import of_chebyshev, with_waves
-from kovacic.general_solution.zero_set import ZeroSet
+from kovacic.general_solution.validity import ZeroSet
 from kovacic.limits import Budget
 from kovacic.parametric.api import conditions_of
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions
@@ -112,7 +112,7 @@ def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
 
 def _in_special_functions(question: Question, solution: Solution, budget: Budget) -> WrittenPair | BySign:
     """Special functions, analytic at ordinary points; by the sign of an integer if that is needed, or gives shorter ones."""
-    is_positive = all(e.is_positive for e in (question.function.args[0], *given_points(question)))
+    is_positive = all(e.is_positive for e in (question.function.args[0], *question.points))
     has_values = bool(question.conditions) and not limit_points(question)  # all at ordinary points
     places = _real_places(question)
     request = Wanted(

@@ -22,7 +22,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from itertools import chain, count
 from math import comb
 from operator import mul
 from typing import Any
@@ -56,6 +55,7 @@ from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.waves import fractions_of_waves, in_waves
 from kovacic.general_solution.zero import quadrant_points, residual_at
 from kovacic.reading.change_of_variable import slope_squared
+from kovacic.writing.formula import free_name
 
 Expr = Any  # SymPy publishes no types
 #: Functions that integrals have with complex arguments.
@@ -313,8 +313,7 @@ def _open(integrand: Expr, x: Expr, start: Expr | None) -> Expr:
 
 def _letter(*parts: Expr) -> Expr:
     """A variable of integration that doesn't occur in the parts."""
-    taken = {symbol.name for symbol in sympy.Tuple(*parts).atoms(Symbol)}
-    return next(Symbol(name) for name in chain("st", map("s{}".format, count())) if name not in taken)
+    return Symbol(free_name(sympy.Tuple(*parts).atoms(Symbol), "s", "t"))
 
 
 def with_letters_of_integration(y: Expr) -> Expr:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import sympy
@@ -23,7 +23,7 @@ from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis, monic_coefficients
 from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.particular import right_hand_side, starting_at, turned_at
+from kovacic.general_solution.particular import right_hand_side, turned_at
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import is_analytic, jump_place, jump_points
 from kovacic.general_solution.validity import needs_of
@@ -34,64 +34,42 @@ from kovacic.reading.change_of_variable import is_in_power, is_of_a_line
 Expr = Any  # SymPy publishes no types
 
 
-def given_points(question: Question) -> list[Expr]:
-    """The points of the conditions, each once, in the order in which they are given."""
-    return [*dict.fromkeys(point for condition in question.conditions for point in condition.points)]
+def impulses_inside(question: Question) -> tuple[dict[Expr, Expr], list[str], dict[Expr, Expr]]:
+    """Impulses taken to lie between the two points of the conditions, as in Green's function, at letters of unknown order.
 
-
-@dataclass(frozen=True)
-class ImpulsesInside:
-    """Places of impulses, taken to lie between the two points `low` and `high` of the conditions: Green's function."""
-
-    places: tuple[Expr, ...] = ()
-    low: Expr = S.Zero
-    high: Expr = S.Zero
-
-    @classmethod
-    def of(cls, question: Question) -> ImpulsesInside:
-        """The places, letters or beside a letter `high`, whose order is open; none without two finite points, or with steps."""
-        points = given_points(question)
-        h = sympy.sympify(question.equation.h or 0)
-        is_impulse = not h.has(Heaviside) and all(len(impulse.args) == 1 for impulse in h.atoms(DiracDelta))
-        if len(points) != 2 or any(point.is_infinite for point in points) or not is_impulse:
-            return cls()
-        low, high = points[::-1] if (points[1] - points[0]).is_negative else points
-        places = []
-        for place in map(question.own, jump_points(h, question.x)):
-            distances = [(place - low).is_positive, (high - place).is_positive]
-            if None in distances and False not in distances and (place.is_Symbol or high.is_Symbol):
-                places.append(place)
-        return cls(tuple(places), low, high)
-
-    @property
-    def values(self) -> dict[Expr, Expr]:
-        """The values of the steps H(low - a) = 0 and H(high - a) = 1."""
-        ends = [(end - a, value) for a in self.places for end, value in ((self.low, 0), (self.high, 1))]
-        return {step: sympy.Integer(k) for u, k in ends for step in (Heaviside(u), Heaviside(u, 0))}
-
-    @property
-    def notices(self) -> list[str]:
-        """The order that was taken for granted, in words."""
-        notices = []
-        for place in self.places:
-            low = "" if (place - self.low).is_positive else f"{self.low} < "
-            high = "" if (self.high - place).is_positive else f" < {self.high}"
-            notices.append(f"this holds for {low}{place}{high}")
-        return notices
-
-    @property
-    def numbers(self) -> dict[Expr, Expr]:
-        """Expressions for letters that put the places there, for all values of the remaining letters."""
-        numbers = {a: self.low + (self.high - self.low) * sympy.Rational(3, 7) for a in self.places if a.is_Symbol}
-        others = [a for a in self.places if not a.is_Symbol]
-        return numbers | ({self.high: sympy.Add(1, *others)} if others else {})
+    The values of the steps H(low - a) = 0 and H(high - a) = 1, the order in words, and expressions for letters that put the
+    impulses there, for all values of the remaining letters.  Empty without two finite points, or with steps.
+    """
+    h = sympy.sympify(question.equation.h or 0)
+    is_impulse = not h.has(Heaviside) and all(len(impulse.args) == 1 for impulse in h.atoms(DiracDelta))
+    values: dict[Expr, Expr] = {}
+    notices: list[str] = []
+    numbers: dict[Expr, Expr] = {}
+    if len(question.points) != 2 or any(point.is_infinite for point in question.points) or not is_impulse:
+        return values, notices, numbers
+    low, high = question.points
+    if (high - low).is_negative:
+        low, high = high, low
+    for a in map(question.own, jump_points(h, question.x)):
+        is_above, is_below = (a - low).is_positive, (high - a).is_positive
+        is_open = None in (is_above, is_below) and False not in (is_above, is_below)
+        if not is_open or not (a.is_Symbol or high.is_Symbol):
+            continue
+        for end, value in ((low, 0), (high, 1)):
+            values |= dict.fromkeys((Heaviside(end - a), Heaviside(end - a, 0)), sympy.Integer(value))
+        notices.append(f"this holds for {'' if is_above else f'{low} < '}{a}{'' if is_below else f' < {high}'}")
+        if a.is_Symbol:
+            numbers[a] = low + (high - low) * sympy.Rational(3, 7)
+        else:
+            numbers[high] = numbers.get(high, 1) + a
+    return values, notices, numbers
 
 
 def limit_points(question: Question) -> dict[Expr, Approach]:
     """The points of conditions on limits, with the side.  Raises `InputError` if the other points are on both sides."""
     points = _all_points(question)
     found = {}
-    for point in given_points(question):
+    for point in question.points:
         if point.is_infinite:
             found[point] = Approach(point)
         elif is_singular(question, point):
@@ -109,7 +87,7 @@ def _apart_error(point: Expr, points: Sequence[Expr]) -> InputError:
 
 def start_of(question: Question, limits: dict[Expr, Approach]) -> Expr:
     """An ordinary point on the side that is meant: the first one with a condition, or one between singular points."""
-    ordinary = [point for point in given_points(question) if point not in limits]
+    ordinary = [point for point in question.points if point not in limits]
     if ordinary:
         between = _possible_poles_between(question, ordinary) if question.equation.change is None else ()
         # beyond a removable point of f/a solutions are continued from there
@@ -141,14 +119,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
 def _all_points(question: Question) -> list[Expr]:
     """The points of conditions and of jumps."""
-    return [*given_points(question), *jump_points(sympy.sympify(question.equation.h or 0), question.x)]
-
-
-def basis_from(question: Question, basis: Basis, start: Expr) -> Basis:
-    """Solutions that are real at `start`, with integrals that begin there.  Raises `InputError` as `check_between` does."""
-    check_between(question, (basis.y1, basis.y2))
-    basis = basis_real_at(basis, start)
-    return basis.of(*(starting_at(y, question.x, start) for y in (basis.y1, basis.y2)))
+    return [*question.points, *jump_points(sympy.sympify(question.equation.h or 0), question.x)]
 
 
 def basis_real_at(basis: Basis, point: Expr) -> Basis:
@@ -180,12 +151,11 @@ def one_sided(question: Question) -> tuple[Question, list[str]]:
     h, x, notices = question.equation.h, question.x, []
     parts = () if h is None else h.atoms(sympy.Pow, sympy.Function) - h.atoms(Heaviside, DiracDelta)
     steps = {step for step in Tuple(*parts).atoms(Heaviside) if step.has(x)}
-    points = given_points(question)
     for step in sorted(steps, key=str):
         place = jump_place(step, x)
         if place is None or place.slope.is_positive is None or not is_singular(question, place.a):
             continue
-        is_left = bool(points) and (points[0] - place.a).is_negative is True
+        is_left = bool(question.points) and (question.points[0] - place.a).is_negative is True
         h = h.xreplace({step: sympy.Integer(place.slope.is_positive is not is_left)})  # H(s (x - a)) on this side
         notices.append(f"this holds for {x} {'<' if is_left else '>'} {place.a}: the equation is singular there")
     if not notices:

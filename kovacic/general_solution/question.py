@@ -2,45 +2,37 @@
 
 The engine knows parameters by name.  Assumptions on them (integer, positive, ...) belong to SymPy's symbols: `Question.own`
 puts these into an expression, and everything that is compared or evaluated has them.
-
-A condition is linear, sum of c_k y^(m_k)(a_k) = v with m_k = 0 or 1: initial and boundary values, periodic conditions
-y(0) = y(2 pi), Robin's y'(0) = h y(0).  At a singular point, and at oo and -oo, y(a) = v says that y tends to v there, and
-y(a) = "bounded" that it stays bounded.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
-from typing import Any, NamedTuple
+from typing import Any
 
 import sympy
-from sympy import Basic, Float, Function, S, Symbol, Tuple, oo
+from sympy import Basic, Float, Function, Symbol, Tuple
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.behaviour import value_or_limit
+from kovacic.general_solution.conditions import Condition, apart, conditions_at, read_conditions
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.steps import JUMPING, in_steps
+from kovacic.general_solution.substitution import exact_decimals
 from kovacic.limits import Limits
-from kovacic.numbers.exact import exact_real, exact_text, is_complex
-from kovacic.numbers.numerals import plain_text
 from kovacic.parametric.assumptions import Assumptions, check_mapping, read_assumptions
 from kovacic.reading.change_of_variable import function_of_x
-from kovacic.reading.lexer import error_at
-from kovacic.reading.pieces import Paste, conditions_in
+from kovacic.reading.pieces import Paste
 from kovacic.reading.read import declared, read_input
 from kovacic.reading.substitution import Template, value_text, values_among
-from kovacic.reading.symbolic import function_of, functions_in, read_expression
+from kovacic.reading.symbolic import function_of, functions_in
 
 Expr = Any  # SymPy publishes no types
-#: The word that may stand in the place of a value.
-BOUNDED = "bounded"
 
 
 @dataclass(frozen=True)
@@ -89,6 +81,11 @@ class Question:
         h = sympy.sympify(equation.h or 0).xreplace(NUMBERS) * (1 if equation.change is None else of_second)
         return of_second, b / slope - of_second * slope.diff(self.x) / slope, c, f + h
 
+    @property
+    def points(self) -> list[Expr]:
+        """The points of the conditions, each once, in the order in which they are given."""
+        return [*dict.fromkeys(point for condition in self.conditions for point in condition.points)]
+
     def own(self, expression: Expr) -> Expr:
         """The expression with the user's symbols for parameters, and the meanings of letters."""
         return expression.xreplace(self._own)
@@ -98,7 +95,7 @@ class Question:
         y, (x,) = self.function, self.function.args
         a, b, c, f = (self.own(e).xreplace({self.x: x}).subs(values) for e in self.coefficients)
         equation = a * y.diff(x, 2) + b * y.diff(x) + c * y - f
-        return equation, y, conditions_at(values, ((y, condition) for condition in self.conditions))
+        return equation, y, conditions_at(values, self.conditions)
 
     def written(self, value: Expr) -> Expr:
         """Eq(y(x), value) with the user's symbols for the variable and for those with the names of numbers."""
@@ -127,22 +124,17 @@ def read_question(
 ) -> Question:
     """The question, with symbols that carry the assumptions for the user's own.  Raises `InputError` for anything else."""
     eq, ics = apart(eq, ics)
-    values = as_mapping(ics)
-    floats = has_floats(eq, values)
+    floats = has_floats(eq, ics)
     renamed: dict[Expr, Expr] = {}
     if isinstance(eq, Basic):
         renamed = {s: Symbol(f"{s.name}_", **s.assumptions0) for s in eq.free_symbols if s.name in (PI, EULER)}
         eq = exact_decimals(eq)
-    eq, func, *sides = (
-        given.xreplace(renamed) if isinstance(given, Basic) else given
-        for given in (eq, func, *values, *values.values())
-    )
+    eq, func = (given.xreplace(renamed) if isinstance(given, Basic) else given for given in (eq, func))
     names = declared(parameters, about_letters(assume, var))
     parsed, given, function = _read_equation(eq, func, var, limits, names)
     if given.variable in (PI, EULER):
         raise InputError(f"{given.variable} is a number", hint="take another name for the variable")
-    reader = ConditionReader(function)
-    conditions = tuple(map(reader.read, sides, sides[len(values) :]))  # the left sides, then the right ones
+    conditions = [condition.in_symbols(renamed) for condition in read_conditions(ics, function)]
     symbols = {symbol.name: symbol for symbol in sorted(getattr(eq, "free_symbols", ()), key=str)}
     own_names = parameters_of(given.S.field)
     letters = {name: Symbol(name) for name in own_names} | symbols
@@ -216,19 +208,6 @@ def _meanings(letters: Sequence[tuple[str, Expr]], symbols: Mapping[str, Expr]) 
     return meanings
 
 
-def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
-    """The equation and its values, if a text has both: y'' + y = 0, y(0) = 1, y'(0) = 0."""
-    if not isinstance(eq, str):
-        return eq, ics
-    paste = Paste(eq)
-    values = dict(paste.conditions)
-    if len(values) < len(paste.conditions):
-        raise error_at(eq, "a value is given twice", paste.scans("condition")[-1], "write every value once")
-    if values and ics:
-        raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
-    return paste, values or ics
-
-
 def with_given_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limits: Limits) -> tuple[Any, Any, Any]:
     """Texts of an equation and its conditions with values from the assumptions, and the others.  Raises `InputError`."""
     check_mapping(assume)
@@ -242,8 +221,9 @@ def with_given_values(eq: Any, ics: Any, assume: Mapping[Any, Any] | None, limit
     return Template(f"{eq}, {ics}" if ics else eq, [*texts]).filled(texts), None, others
 
 
-def has_floats(eq: Any, values: Mapping[Any, Any]) -> bool:
+def has_floats(eq: Any, ics: Any) -> bool:
     """True if an equation, or given values, contain floats."""
+    values = ics if isinstance(ics, Mapping) else {}
     parts = (eq, *values, *values.values())
     return any(isinstance(e, float) or (isinstance(e, Basic) and e.has(Float)) for e in parts)
 
@@ -314,175 +294,3 @@ def _applied_in(eq: Expr, name: Any) -> Expr:
         hint = f"if {', '.join(others)} is given, say what is sought: func={function}"
         raise NotLinear(f"{', '.join([str(function), *others])}: which is the unknown function?", hint=hint)
     return function
-
-
-# --------------------------------------------------------------------------------------------------------- conditions
-
-
-class ConditionTerm(NamedTuple):
-    """coefficient * y(point), or coefficient * y'(point) for order 1."""
-
-    point: Expr
-    order: int
-    coefficient: Expr
-
-
-@dataclass(frozen=True)
-class Condition:
-    """The sum of the terms is `value`, or bounded if that is None."""
-
-    terms: tuple[ConditionTerm, ...]
-    value: Expr | None
-    text: str
-
-    @property
-    def points(self) -> tuple[Expr, ...]:
-        return tuple(term.point for term in self.terms)
-
-    @property
-    def free_symbols(self) -> set[Expr]:
-        """The symbols in its points, coefficients and value."""
-        return Tuple(*self.terms, self.value or 0).free_symbols  # type: ignore[no-any-return]
-
-    def in_symbols(self, others: Mapping[Expr, Expr]) -> Condition:
-        """The condition in other symbols."""
-        terms = (ConditionTerm(a.xreplace(others), order, c.xreplace(others)) for a, order, c in self.terms)
-        return replace(self, terms=tuple(terms), value=self.value and self.value.xreplace(others))
-
-    def of(self, y: Expr, x: Expr) -> Expr:
-        """The sum of the terms for a function of x.  Raises `NotImplementedError` as `value_or_limit` does."""
-        return sympy.Add(*(term.coefficient * value_or_limit(y, x, term.point, term.order) for term in self.terms))
-
-    @property
-    def is_value(self) -> bool:
-        """True for y(a) = v and y'(a) = v."""
-        return len(self.terms) == 1 and self.terms[0].coefficient == 1 and self.value is not None
-
-    @property
-    def by_order(self) -> tuple[Expr, Expr]:
-        """alpha and beta, where the terms are alpha y + beta y' at one point."""
-        parts = [S.Zero, S.Zero]
-        for term in self.terms:
-            parts[term.order] += term.coefficient
-        return parts[0], parts[1]
-
-
-def conditions_at(values: Mapping[Expr, Expr], conditions: Iterable[tuple[Expr, Condition]]) -> dict[Expr, Any]:
-    """Conditions on functions, as for `dsolve`, for particular values of letters.  Raises `InputError` for two on one value."""
-    found: dict[Expr, Any] = {}
-    for y, condition in conditions:
-        x = y.args[0]
-        left = sympy.Add(*(c * y.diff(x, order).subs(x, a) for a, order, c in condition.terms)).subs(values)
-        if left in found:
-            raise InputError(f"two values are given for {left}")
-        found[left] = BOUNDED if condition.value is None else condition.value.subs(values)
-    return found
-
-
-def periodicity(conditions: Sequence[Condition], ends: tuple[Expr, Expr]) -> int:
-    """1 for y(a) = y(b), y'(a) = y'(b), -1 for y(a) = -y(b), y'(a) = -y'(b), and 0 for other conditions."""
-    factors = {}
-    for condition in conditions:
-        orders = {term.order for term in condition.terms}
-        at = {term.point: term.coefficient for term in condition.terms}
-        if len(orders) == 1 and {*at} == {*ends}:
-            factors[orders.pop()] = sympy.simplify(-at[ends[1]] / at[ends[0]])
-    is_periodic = len(conditions) == 2 and factors in ({0: 1, 1: 1}, {0: -1, 1: -1})
-    return int(factors[0]) if is_periodic else 0
-
-
-def as_mapping(ics: Mapping[Any, Any] | str | None) -> dict[Any, Any]:
-    """Conditions as a mapping, from a mapping or from one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
-    pairs = conditions_in(ics) if isinstance(ics, str) else (ics or {}).items()
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise InputError(f"a value is given twice in {ics!r}", hint='write "y(0)=1, y\'(0)=0", every value once')
-    return found
-
-
-class ConditionReader:
-    """Reads conditions on the unknown function y(x), which is written with the user's symbols, or by its name in a text."""
-
-    def __init__(self, function: Expr) -> None:
-        self.function = function
-        self.unknown = str(function.func)
-        self._symbols: dict[
-            tuple[Expr, int], Expr
-        ] = {}  # symbols for y(a), (a, 0), and y'(a), (a, 1), in an expression
-
-    def read(self, key: Any, value: Any) -> Condition:
-        """One condition.  Raises `InputError`."""
-        self._symbols = {}
-        whole = self._side(key)
-        text = f"{plain_text(key)} = {plain_text(value)}"
-        if not self._symbols:
-            raise self._no_condition(key)
-        is_bounded = plain_text(value).strip() == BOUNDED
-        if not is_bounded:
-            whole = sympy.expand(whole - self._side(value))
-        slopes = {term: sympy.expand(whole.diff(symbol)) for term, symbol in self._symbols.items()}
-        symbols = {*self._symbols.values()}
-        if Tuple(*slopes.values()).free_symbols & symbols:
-            raise InputError(f"the condition {key} isn't linear in {self.unknown}")
-        terms = tuple(ConditionTerm(*term, slope) for term, slope in slopes.items() if slope != 0)
-        if not terms:
-            raise self._no_condition(key)
-        rest = whole.xreplace(dict.fromkeys(symbols, S.Zero))
-        return Condition(terms, None if is_bounded else -rest, text)
-
-    def _side(self, side: Any) -> Expr:
-        """One side with symbols for y(a), and for y(x).diff(x).subs(x, a) in either form that SymPy gives it."""
-        if isinstance(side, str):  # `y(0)`, `y'(0) - h*y(0)`, or a constant
-            value = read_expression(side, what="the initial value", values={self.unknown: self._symbol})
-            return self._checked(value, side)
-        value = _exact(side)
-        value = value.xreplace({e: self._derivative(e.expr, e.point[0]) for e in value.atoms(sympy.Subs)})
-        value = value.xreplace({e: self._derivative(e, e.expr.args[0]) for e in value.atoms(sympy.Derivative)})
-        applied = sorted((e for e in value.atoms(AppliedUndef) if e.func == self.function.func), key=str)
-        return self._checked(value.xreplace({e: self._symbol(e.args[0], 0) for e in applied if len(e.args) == 1}), side)
-
-    def _derivative(self, derivative: Expr, point: Expr) -> Expr:
-        orders = [int(count) for _, count in getattr(derivative, "variable_count", ())]
-        if orders != [1] or derivative.expr.func != self.function.func:
-            raise self._no_condition(derivative)
-        return self._symbol(point, 1)
-
-    def _symbol(self, point: Expr, order: int) -> Expr:
-        """The symbol for y(a) or y'(a) in an expression."""
-        if order > 1:
-            raise self._no_condition(self.unknown + "'" * order + f"({point})")
-        if point not in (oo, -oo):
-            self._checked(point, point)
-        return self._symbols.setdefault((point, order), Symbol(f"value_{len(self._symbols)}_"))
-
-    def _checked(self, value: Expr, given: Any) -> Expr:
-        """The value, which must be a constant.  Raises `InputError`."""
-        if not isinstance(value, sympy.Expr) or value.has(oo, -oo, sympy.nan, sympy.zoo):
-            raise InputError(f"the value {given!r} isn't a finite number")
-        if str(self.function.args[0]) in map(str, value.free_symbols):
-            raise InputError(f"{given} contains the variable: a condition holds at one point", hint="write y(0): 1")
-        if value.atoms(AppliedUndef):
-            raise InputError(f"the value {given!r} can't be read", hint="give a number, or text such as 'sqrt(2)'")
-        return value
-
-    def _no_condition(self, key: Any) -> InputError:
-        y = self.unknown
-        if isinstance(key, str):
-            python, shell = f"write {{'{y}(0)': 1, \"{y}'(0)\": 2}}", f"write {y}(0) = 1, {y}'(0) = 2"
-            return InputError(f"{key!r} isn't an initial value", hint=python, shell=shell)
-        return InputError(f"{key} isn't an initial value", hint="write {y(0): 1, y(x).diff(x).subs(x, 0): 2}")
-
-
-def _exact(given: Any) -> Expr:
-    """A SymPy expression; a float becomes the decimal that is written for it."""
-    if isinstance(given, sympy.Expr):
-        return exact_decimals(given)
-    if is_complex(given):
-        return _exact(given.real) + sympy.I * _exact(given.imag)
-    return sympy.Rational(exact_real(exact_text(given, "the value"), "the value"))
-
-
-def exact_decimals(expression: Expr) -> Expr:
-    """The expression with exact decimals for floats."""
-    floats = (number for number in expression.atoms(Float) if number.is_finite)
-    return expression.xreplace({number: sympy.Rational(str(number)) for number in floats})

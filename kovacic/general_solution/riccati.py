@@ -28,8 +28,7 @@ import sympy
 from sympy import Add, cancel, expand, powsimp
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.ratfunc import over_one_denominator as over_common_denominator
+from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product
@@ -357,7 +356,7 @@ def _polynomial_in_w(solution: Solution, gauge: RatFunc, factor: RatFunc, atoms:
         shifted = [c, *(a * slope for a in by_powers)]
         low = [*(a * rest for a in by_powers), rest * 0]
         by_powers = [a + b for a, b in zip(shifted, low, strict=True)]
-    numerators = over_common_denominator(by_powers)
+    numerators = over_one_denominator(by_powers)
     common = reduce(Poly.gcd, numerators)
     w = sympy.Symbol("w")
     found = Add(*(atoms.poly(a // common) * w**k for k, a in enumerate(numerators)))

@@ -85,8 +85,15 @@ def _at_zero(value: Expr) -> Expr:
 
 
 def in_single_waves(e: Expr) -> Expr:
-    """Expanded, with sums of waves for their products."""
-    return sympy.expand(TR8(sympy.expand(e)))
+    """Expanded, with sums of waves for their products and powers: of cos(x)^4 a step leaves cos(2*x)^2."""
+    found = sympy.expand(TR8(sympy.expand(e)))
+    return found if found == e else in_single_waves(found)
+
+
+def exact_decimals(expression: Expr) -> Expr:
+    """The expression with exact decimals for floats."""
+    floats = (number for number in expression.atoms(sympy.Float) if number.is_finite)
+    return expression.xreplace({number: sympy.Rational(str(number)) for number in floats})
 
 
 def by_functions(total: Expr, is_coefficient: Callable[[Expr], Any]) -> dict[Expr, Expr]:

@@ -23,7 +23,6 @@ from sympy.solvers.solveset import NonlinearError
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import vanishes_with
-from kovacic.general_solution.behaviour import value_or_limit
 from kovacic.general_solution.constants import CaseOutcome, Row, determine
 from kovacic.general_solution.first_order import (
     LINEAR,
@@ -37,12 +36,12 @@ from kovacic.general_solution.first_order import (
     with_letters_for_constants,
     zeros_of,
 )
-from kovacic.general_solution.question import exact_decimals, free_constants
+from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.steps import JUMPING, in_steps, split_at_jumps
-from kovacic.general_solution.substitution import inverted, size, slope
+from kovacic.general_solution.substitution import exact_decimals, inverted, size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
+from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import is_zero
-from kovacic.general_solution.zero_set import ZeroSet
 from kovacic.special.choice import shortest
 
 Expr = Any  # SymPy publishes no types
@@ -89,14 +88,14 @@ class LinearSystem(OfFirstOrder):
         """The equation of the first unknown, with its conditions, for a known second one."""
         a, b, _, _, f, _ = self.entries
         x = self.functions[0]
-        of_x = tuple((function, condition) for function, condition in self.asked if function == x)
+        of_x = tuple(condition for condition in self.conditions if condition.function == x)
         return FirstOrderEquation((x,), (sympy.expand(b * other + f), a, *LINEAR), of_x)
 
     @property
     def values(self) -> tuple[Expr, Expr, Expr] | None:
         """t0, x(t0) and y(t0), if these are given."""
-        values = {f: (condition.points[0], condition.value) for f, condition in self.asked}
-        if len(self.asked) != 2 or len(values) != 2:
+        values = {condition.function: (condition.points[0], condition.value) for condition in self.conditions}
+        if len(self.conditions) != 2 or len(values) != 2:
             return None
         (point, first), (other, second) = (values[f] for f in self.functions)
         return (point, first, second) if point == other else None
@@ -152,14 +151,14 @@ def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
             raise InputError(f"{condition.text}: a system has values of its unknowns")
     is_swapped = _is_swapped(given)
     system = given.swapped if is_swapped else given
-    without_values = replace(system, asked=())
+    without_values = replace(system, conditions=())
     t, b, values = system.x, system.entries[1], system.values
     taken = Tuple(t, *system.entries).free_symbols.union(*(c.free_symbols for c in system.conditions))
     zeros: list[Expr] = []
     exceptions: list[Expr] = []
-    is_open = bool(system.asked)  # the values are put in afterwards
+    is_open = bool(system.conditions)  # the values are put in afterwards
     if b == 0:
-        is_open = len(system.swapped.alone(sympy.S.Zero).asked) > 1  # two values of y determine x
+        is_open = len(system.swapped.alone(sympy.S.Zero).conditions) > 1  # two values of y determine x
         triangular = without_values if is_open else system
         first = solved_linear(triangular.alone(sympy.S.Zero), taken)
         second = solved_linear(triangular.swapped.alone(*first.values), taken | first.values[0].free_symbols)
@@ -225,8 +224,8 @@ def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr])
     """The pair with the constants that the values determine, and expressions that are zero for exceptional parameters."""
     c1, c2 = constants
     rows = []
-    for f, condition in system.asked:
-        there = value_or_limit(pair[system.functions.index(f)], system.x, condition.points[0])
+    for condition in system.conditions:
+        there = condition.of(pair[system.functions.index(condition.function)], system.x)
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
     generic, others, _ = determine(rows, (c1, c2))
     if generic.outcome is CaseOutcome.NONE:

@@ -255,10 +255,10 @@ def _exchanged(value: Expr, x: Expr) -> Iterator[Expr]:
 
 
 def _single_waves(value: Expr, x: Expr) -> Iterator[Expr]:
-    """Products of waves as sums, if a term has two."""
+    """Products of waves as sums, if a term has two, or the power of one."""
     expanded = expand(value) if value.has(sin, cos) else value
-    terms = map(Mul.make_args, Add.make_args(expanded))
-    if any(sum(isinstance(part, sin | cos) for part in term) > 1 for term in terms):
+    terms = ([part.as_base_exp() for part in Mul.make_args(term)] for term in Add.make_args(expanded))
+    if any(sum(int(n) for u, n in term if isinstance(u, sin | cos) and n.is_Integer and n > 0) > 1 for term in terms):
         found = powsimp(in_single_waves(value))
         steps = sorted(value.atoms(Heaviside), key=str)
         yield found

@@ -13,19 +13,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import sympy
-from sympy import And, Dummy, GreaterThan, I, Mul, Ne, Pow, S, StrictGreaterThan, cos, expand, sift, sin, true
+from sympy import Add, Dummy, GreaterThan, I, Mul, Ne, Pow, S, StrictGreaterThan, cos, exp, expand, gamma, sin
 from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
 from kovacic.closed_form.cuts import cut_of
 from kovacic.general_solution.substitution import in_single_waves, size
-from kovacic.general_solution.textbook import in_root
-from kovacic.general_solution.zero import agree, is_nowhere_zero, is_positive_polynomial, letter_samples
-from kovacic.general_solution.zero_set import ZeroSet, gamma_zeros, independent_exceptions, inequality
+from kovacic.general_solution.textbook import in_hyperbolic_functions, in_root
+from kovacic.general_solution.zero import agree, by_parity, is_nowhere_zero, is_positive_polynomial, letter_samples
+from kovacic.limits import manageable
 
 Expr = Any  # SymPy publishes no types
 
@@ -59,8 +60,10 @@ class Validity:
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
 
-def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = ()) -> Validity:
-    """The requirements of formulas, part by part; `exceptions` are those of the pair of solutions in them."""
+def needed_for(
+    formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (), others: Iterable[Expr] = ()
+) -> Validity:
+    """The requirements of formulas, part by part, and others; `exceptions` are those of the pair of solutions in them."""
     value, roots = _without_even_roots(sympy.Tuple(*formulas), x)
     # The bounds of an integral may be infinite; SymPy can't tell whether a sum over roots is real.
     plain = value.xreplace({total: Dummy() for total in value.atoms(sympy.RootSum)})
@@ -68,7 +71,7 @@ def needed_for(formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # atan and asinh have their cuts on the imaginary axis, where a root of something negative lies
     cuts = (_positive_need(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    needs = [need.xreplace(roots) for need in (*needs_of(value), *cuts)]
+    needs = [need.xreplace(roots) for need in (*needs_of(value), *cuts, *others)]
     exceptions = tuple(exceptions)
     found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
@@ -90,7 +93,7 @@ def _without_what_holds(
         if False in truths.values():
             return None
         parts = [part for part, is_true in truths.items() if not is_true]
-        of_letters, relations = sift(parts, lambda r: isinstance(r, Ne) and not r.has(x), binary=True)
+        of_letters, relations = sympy.sift(parts, lambda r: isinstance(r, Ne) and not r.has(x), binary=True)
         zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
         if k == 0:  # later rounds have u > 0 for u >= 0 because of the exception u, which therefore has to stay
             said = _nonzero_beside(relations)
@@ -147,7 +150,7 @@ def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
 
 
 def _for_real_letters(zero: Expr, known: Collection[Expr]) -> Sequence[Expr]:
-    """The factors that may be zero for real letters: k for sinh(k), and r for exp(sqrt(r)) - 1 where r >= 0 is known.
+    """The factors that may be zero for real letters: k for sympy.sinh(k), and r for exp(sqrt(r)) - 1 where r >= 0 is known.
 
     Nothing for 1/gamma(1 + sqrt(r)), and r for 1/gamma(sqrt(r)): a root isn't negative, and no pole if it isn't real.
     """
@@ -207,15 +210,15 @@ def _truth(relation: Expr) -> bool | None:
     signed = (e, -e)[: 1 + is_inequality]
     if any(is_positive_polynomial(p, or_zero=isinstance(relation, GreaterThan)) for p in signed):
         return True
-    roots, others = sift(sympy.Add.make_args(e), lambda part: part.is_Pow, binary=True)
+    roots, others = sympy.sift(Add.make_args(e), lambda part: part.is_Pow, binary=True)
     if len(roots) != 1 or roots[0].exp != S.Half:
         return None
-    return expand(roots[0].base - sympy.Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
+    return expand(roots[0].base - Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
 
 
 def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] | None:
     """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, without relations that hold there; None if no interval satisfies all."""
-    rational, others = sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
+    rational, others = sympy.sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
         return tuple(relations)
     t = Dummy(real=True)
@@ -226,11 +229,11 @@ def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] |
         return tuple(relations)
     a, b = where.start, where.end
     ends = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
-    bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != true]  # as x > -1 for a positive x is
+    bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != sympy.true]  # as x > -1 for a positive x is
     p = Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
     places = (inside, *(end for end in (a, b) if end in where))
-    others = [r for r in others if not all(expand(r.xreplace({x: place})) == true for place in places)]
+    others = [r for r in others if not all(expand(r.xreplace({x: place})) == sympy.true for place in places)]
     return (*(bounds if len(bounds) < len(rational) else rational), *others)
 
 
@@ -249,6 +252,126 @@ def _of_cosine(relation: Expr) -> Expr:
     of_one_wave = in_single_waves(product).as_content_primitive()[1]
     shorter = min(relation, of_one_wave > 0, key=sympy.count_ops)
     return next((Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
+
+
+# ---------------------------------------------------------------------------------------------------------- zero sets
+
+
+@dataclass(frozen=True)
+class ZeroSet:
+    """The values of letters for which `expression` vanishes: it is empty, and false, without `factors`.
+
+    >>> k, n = sympy.symbols("k n")
+    >>> print(ZeroSet(k**2 * exp(k)), "|", ZeroSet(1 / gamma(-n)), "|", ZeroSet(sympy.sin(k) / k))
+    k = 0 | n is one of 0, 1, 2, ... | sin(k) = 0 and k != 0
+    """
+
+    expression: Expr
+
+    @cached_property
+    def factors(self) -> tuple[Expr, ...]:
+        """The factors with letters that may be zero, each once, without powers and signs."""
+        found = []
+        for factor in _factors_with_zeros(self.expression):
+            # the inverse of a gamma function is zero at its poles
+            is_below = factor.is_Pow and factor.exp.is_negative and not factor.has(gamma)
+            if factor.free_symbols and not is_below and not _has_no_zero(factor):
+                found.append(-factor if factor.could_extract_minus_sign() else factor)
+        return tuple(dict.fromkeys(found))
+
+    def __bool__(self) -> bool:
+        return bool(self.factors)
+
+    def __str__(self) -> str:
+        return self.said()
+
+    def said(self, answer: Expr = S.Zero) -> str:
+        """`equation`, and that it is defined: sin(k)/k is 1 at k = 0, where its factor sin(k) vanishes."""
+        below = Mul.make_args(sympy.fraction(sympy.together(self.expression))[1])
+        product = Mul(*self.factors)
+        bases = (factor.as_base_exp()[0] for factor in below)
+        guarding = (ZeroSet(b).factors for b in bases if b.free_symbols and _where_zero(product, b) == 0)
+        return " and ".join([self.equation(answer), *(f"{Mul(*zeros)} != 0" for zeros in guarding if zeros)])
+
+    def equation(self, answer: Expr = S.Zero) -> str:
+        """`k = 0`; in hyperbolic functions if the answer has these."""
+        left = Mul(*self.factors)
+        if poles := gamma_zeros(left):
+            return f"{poles[0]} is one of 0, {poles[1]}, {2 * poles[1]}, ..."
+        if answer.has(sympy.sinh, sympy.cosh):
+            factors = Mul.make_args(in_hyperbolic_functions(left))
+            left = Mul(*(factor for factor in factors if not is_nowhere_zero(factor)))
+        return f"{left} = 0"
+
+
+def gamma_zeros(e: Expr) -> tuple[Expr, int] | None:
+    """(n, 1) for 1/gamma(-n), which is zero at 0, 1, 2, ...; (n, -1) for 1/gamma(n); None for other expressions."""
+    if not isinstance(1 / e, gamma):
+        return None
+    u = min((1 / e).args[0], sympy.together((1 / e).args[0]), key=size)
+    return (-u, 1) if u.could_extract_minus_sign() else (u, -1)
+
+
+def inequality(e: Expr) -> str:
+    """`k != 0`, or `n is none of 0, 1, 2, ...`."""
+    poles = gamma_zeros(e)
+    return f"{poles[0]} is none of 0, {poles[1]}, {2 * poles[1]}, ..." if poles else f"{e} != 0"
+
+
+def independent_exceptions(exceptions: Iterable[Expr]) -> tuple[Expr, ...]:
+    """The exceptions without c + m and 1/gamma(c + m), m an integer, beside sin(pi c); 1/gamma(c) for c and 1/gamma(c + 1)."""
+    exceptions = tuple(dict.fromkeys(exceptions))
+    for inverse in [e for e in exceptions if isinstance(1 / e, gamma)]:
+        c = sympy.expand((1 / inverse).args[0] - 1)
+        others = [e for e in exceptions if not sympy.cancel(e / c).is_number]
+        if len(others) < len(exceptions):
+            exceptions = tuple(1 / gamma(c) if e == inverse else e for e in others)
+    periodic = [e.args[0] / sympy.pi for e in exceptions if isinstance(e, sympy.sin)]
+
+    def is_implied(e: Expr) -> bool:
+        number = (gamma_zeros(e) or (e,))[0]
+        return any(sympy.cancel(number - sign * c).is_Integer for c in periodic for sign in (1, -1))
+
+    return tuple(dict.fromkeys(e for e in exceptions if not is_implied(e)))
+
+
+def _factors_with_zeros(zero: Expr) -> Iterator[Expr]:
+    """The factors, and b for b^c, which is zero for b = 0 alone if c is positive.
+
+    With real a and b, a - b in the place of exp(a) - exp(b), and 2*n + 1 in that of 3*3^(2*n) - 1.
+    """
+    if manageable(zero):
+        above, below = sympy.fraction(sympy.together(zero))
+        above /= Mul(*(f for f in Mul.make_args(below) if isinstance(f, gamma)))  # 0 at its poles
+        zero = min(map(sympy.factor, (above, in_single_waves(above))), key=size)
+    if zero.has(exp):
+        zero = sympy.powsimp(zero, deep=True, combine="exp")  # exp(a) exp(-b)
+    for factor in Mul.make_args(zero):
+        terms = Add.make_args(factor.rewrite(exp) if isinstance(factor, sympy.sinh) else factor)
+        exponent = sympy.expand_log(sympy.log(-terms[0] / terms[1])) if len(terms) == 2 else I
+        if factor.is_Pow and not isinstance(factor, exp) and not factor.exp.is_nonpositive:
+            yield from _factors_with_zeros(factor.base)
+        elif exponent.is_real and all(f.is_number for f in exponent.atoms(sympy.log)):
+            yield from _factors_with_zeros(exponent)
+        else:
+            yield factor
+
+
+def _where_zero(e: Expr, base: Expr) -> Expr:
+    """The value of e where the base is zero: at the zero of a letter in which the base is linear with a number before it."""
+    for letter in base.free_symbols:
+        slope = base.diff(letter)
+        if slope.is_number:
+            return e.subs(letter, sympy.expand(letter - base / slope))
+    return e.subs(base, 0)
+
+
+def _has_no_zero(factor: Expr) -> bool:
+    """True if it is seen for even and for odd integers, or in hyperbolic functions; gamma functions have no zeros."""
+    cases = Mul(*by_parity(factor))
+    forms = (cases, in_hyperbolic_functions(factor)) if factor.has(exp) else (cases,)
+    parts = (Mul.make_args(form) for form in forms)
+    return any(all(isinstance(part, gamma) or is_nowhere_zero(part) for part in product) for product in parts)
 
 
 # ------------------------------------------------------------------------------------------------------ part by part
@@ -276,13 +399,13 @@ def needs_of(e: Expr) -> Iterator[Expr]:
     for argument in e.args:
         yield from needs_of(argument)
     if e.func in _NEEDS:
-        yield from And.make_args(_NEEDS[e.func](e, e.args[-1]))
+        yield from sympy.And.make_args(_NEEDS[e.func](e, e.args[-1]))
 
 
 def _of_power(e: Expr, exponent: Expr) -> Expr:
     """The need of a power with a real and finite base and exponent."""
     if e.base.is_number or (exponent.is_nonnegative and exponent.is_integer):
-        return true
+        return sympy.true
     if exponent.is_integer:
         return Ne(e.base, 0)
     return (_not_negative if exponent.is_Rational and exponent > 0 else _positive_need)(e.base)
@@ -295,7 +418,7 @@ def _positive_need(u: Expr) -> Expr:
 
 def _not_negative(u: Expr) -> Expr:
     """u >= 0, but nothing for an argument with an i."""
-    return true if u.has(I) else GreaterThan(u, 0, evaluate=False)
+    return sympy.true if u.has(I) else GreaterThan(u, 0, evaluate=False)
 
 
 def _nonzero(u: Expr) -> Expr:
@@ -306,22 +429,22 @@ def _nonzero(u: Expr) -> Expr:
 
 def _unless(is_entire: Any, need: Expr) -> Expr:
     """The need, except of an entire function."""
-    return true if is_entire else need
+    return sympy.true if is_entire else need
 
 
 def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
     moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
     square = sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else 1
-    return And(*(_positive_need(1 - m * square) for m in moduli))
+    return sympy.And(*(_positive_need(1 - m * square) for m in moduli))
 
 
 def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
     """pFq: a polynomial, or entire for p <= q, with a cut from 1 on for p = q + 1, from 0 on for p > q + 1."""
-    defined = (Ne(1 / sympy.gamma(c), 0) for c in e.bq if c.free_symbols)  # poles at 0, -1, ...
+    defined = (Ne(1 / gamma(c), 0) for c in e.bq if c.free_symbols)  # poles at 0, -1, ...
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
     cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
-    return And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive_need(cut)), *defined)
+    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive_need(cut)), *defined)
 
 
 #: The need of a power or a function e with the last argument u.

@@ -38,18 +38,7 @@ _PRECISE = 400
 #: The number of values of the letters that are tried.
 _LETTER_SAMPLES = 6
 #: Points x/101 + i y/89 in each quadrant and on the axis, where a formula is substituted: wrong branches of roots don't pass.
-_QUADRANT_POINTS = [
-    (137, 71),
-    (-151, 83),
-    (-97, -119),
-    (163, -79),
-    (23, 0),
-    (67, 0),
-    (173, 0),
-    (431, 0),
-    (-41, 0),
-    (-257, 0),
-]
+_QUADRANT_POINTS = ((137, 71), (-151, 83), (-97, -119), (163, -79), *((p, 0) for p in (23, 67, 173, 431, -41, -257)))
 
 
 class Zero(Enum):
@@ -68,8 +57,6 @@ def when_zero(value: Expr) -> Zero:
     (<Zero.ALWAYS: 'always'>, <Zero.NEVER: 'never'>, <Zero.SOMETIMES: 'sometimes'>)
     """
     value = sympy.sympify(value, strict=True)
-    if value == 0:
-        return Zero.ALWAYS
     if is_nowhere_zero(value):
         return Zero.NEVER
     if any(differs_from_zero(value, sample) for sample in islice(letter_samples(value.free_symbols), _LETTER_SAMPLES)):

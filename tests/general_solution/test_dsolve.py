@@ -98,10 +98,12 @@ def test_an_error_function() -> None:
         ("y'' + y = sin(x)", -x * cos(x) / 2),
         ("y'' - 2*y' + y = x*exp(x)", x**3 * exp(x) / 6),
         ("y'' + 4*y = sin(x)^2", Rational(1, 8) - x * sin(2 * x) / 8),
+        ("y'' + y = sin(x)^4", cos(2 * x) / 6 - cos(4 * x) / 120 + Rational(3, 8)),
+        ("y'' - y' + exp(2*x)*y = x*exp(2*x) - 1", x),
     ],
 )
 def test_undetermined_coefficients(text: str, expected: sympy.Expr) -> None:
-    """No integrals: at once, and without parts that solve the homogeneous equation."""
+    """No integrals: at once, without parts that solve the homogeneous equation, and without powers of waves."""
     assert sympy.expand(dsolve(text).rhs.subs({C1: 0, C2: 0}) - expected) == 0
 
 

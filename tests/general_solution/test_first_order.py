@@ -370,6 +370,7 @@ def test_where_the_solutions_of_a_system_with_letters_are_real_and_independent()
         found = kovacic.dsolve("x' = a*x + b*y, y' = c*x + d*y")
     assert str(kovacic.validity(found)) == "-a**2 + 2*a*d - 4*b*c - d**2 > 0, b != 0"
     assert str(kovacic.answer_to("x' = y, y' = k*x, x(0) = 1").validity) == "k > 0"
+    assert str(kovacic.answer_to("x' = y, y' = k*x, y(0) = 0").validity) == "k >= 0"  # cosh(sqrt(k) t) is left
 
 
 @pytest.mark.parametrize(

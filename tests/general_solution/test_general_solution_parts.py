@@ -15,15 +15,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
+import kovacic
 from kovacic import answer_to, dsolve
+from kovacic.general_solution import steps
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.behaviour import Approach, UnknownLimit, limit_at, values_at
+from kovacic.general_solution.behaviour import (
+    _LEADING,
+    OSCILLATING,
+    Approach,
+    UnknownLimit,
+    limit_at,
+    value_or_limit,
+    values_at,
+)
 from kovacic.general_solution.check import is_finite
+from kovacic.general_solution.conditions import read_conditions
 from kovacic.general_solution.constants import CaseOutcome, Row, determine
 from kovacic.general_solution.particular import DefiniteIntegral
+from kovacic.general_solution.question import with_floats
+from kovacic.general_solution.riccati import RiccatiSolutions
 from kovacic.general_solution.substitution import finite_value
+from kovacic.general_solution.textbook import with_waves
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.waves import fractions_of_waves
+from kovacic.general_solution.validity import needed_for
+from kovacic.general_solution.waves import _at_tangent, _continuous_angle, fractions_of_waves, wave_zeros
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
@@ -374,3 +389,132 @@ def test_partial_fractions_of_waves_leave_integrands_alone() -> None:
     forms = fractions_of_waves(integral * sin(x) ** 2 / cos(x) + exp(x), x)
     assert forms
     assert all(form.atoms(sympy.Integral) == {integral} for form in forms)
+
+
+# --------------------------------------------------------------------------------------------- branches of the parts
+
+
+@pytest.mark.parametrize(
+    ("end", "top", "bottom", "near", "z"),
+    [
+        *((1, top, bottom, "1/10000000", 1 - mpmath.mpf(10) ** -7) for top, bottom in [
+            ("1/3, 1/2", "2"), ("1/3, 2/3", "1"), ("1/3, 2", "3/2"), ("-2, 1/3", "7/5"), ("-2, 1/3", "-8/3"),
+        ]),
+        *((oo, top, "1/2", "400", 400) for top in ("1/3", "-2")),
+        *((-oo, top, "1/2", "400", -400) for top in ("1/3", "5/2")),
+        *((-oo, top, "", "10000000", -1e7) for top in ("1/3, 5/2", "5/2, 1/3", "-2, 1/3", "1/3, -2", "-2, -5/2", "1/3, 1/3")),
+        (oo, "", "4/3", "10000", 10**4),
+        (-oo, "", "4/3", "10000", -(10**4)),
+    ],
+)  # fmt: skip
+def test_leading_terms_of_hypergeometric_functions(end: Any, top: str, bottom: str, near: str, z: Any) -> None:
+    """By the sign of c - a - b, for polynomials, and with logarithms."""
+    parameters = [[Rational(text) for text in part.split(", ") if text] for part in (top, bottom)]
+    leading = _LEADING[len(parameters[0]), len(parameters[1])][sympy.sympify(end)](*parameters, Rational(near))
+    value = mpmath.hyper(*([mpmath.mpf(a.p) / a.q for a in part] for part in parameters), z)
+    assert abs(mpmath.mpf(sympy.N(leading, 20)) / value - 1) < 0.2
+
+
+def test_a_wave_has_no_limit_and_a_root_decides_the_sign_of_a_rate() -> None:
+    v, p = sympy.symbols("v p", positive=True)
+    assert limit_at(3 * sin(x), x, Approach(oo)) == OSCILLATING
+    assert limit_at(exp(x * (v - sqrt(v**2 + 4 * p))), x, Approach(oo)) == 0
+
+
+def test_steps_in_cases_and_in_steps() -> None:
+    """Cases of two intervals; a step of a step; an impulse beside a step at the same point isn't split."""
+    inside = sympy.Piecewise((0, sympy.Or(x < -1, x > 1)), (1, True))
+    assert sympy.expand(steps.in_steps(inside, x) - sympy.Heaviside(x + 1) * (1 - sympy.Heaviside(x - 1))) == 0
+    assert steps.heaviside_of(x * sympy.Heaviside(x) - 1, x) == sympy.Heaviside(x - 1)
+    assert steps.split_at_jumps(sympy.DiracDelta(x - 1) * sympy.Heaviside(x - 1), x) is None
+
+
+def test_constants_that_nothing_determines() -> None:
+    """No condition on either; 1/gamma(a) and 1/gamma(a + 1/2) are never zero together."""
+    assert determine([Row(*[sympy.S.Zero] * 3)], (C1, C2)).generic.values == (C1, C2)
+    row = Row(1 / sympy.gamma(w), 1 / sympy.gamma(w + Rational(1, 2)), sympy.S.Zero)
+    found = determine([row], (C1, C2))
+    assert sympy.simplify(row.rest(*found.generic.values)) == 0
+    assert not found.particular
+
+
+def test_parts_without_a_value_or_a_form() -> None:
+    assert undetermined(sympy.I, 2, sin(x), x) is None  # the factor i + i in two meanings has the norm 0
+    poly = sympy.Poly(C1**3 - 2, C1)
+    assert finite_value(sympy.RootSum(poly, sympy.Lambda(C1, log(x) / C1), auto=False), x, sympy.S.Zero) is None
+    pair = exp(-x + x * sqrt(w**2 + 1)), exp(-x - x * sqrt(w**2 + 1))
+    assert with_waves(*pair) == pair  # the root is real
+
+
+def test_complex_values_and_floats_beside_orders() -> None:
+    y = sympy.Function("y")
+    assert read_conditions({y(0): 1.5 + 2j}, y(x))[0].value == Rational(3, 2) + 2 * sympy.I
+    assert str(with_floats(sympy.besselj(Rational(1, 3), x / 2))) == "besselj(1/3, 0.5*x)"
+
+
+def test_a_polynomial_of_algebraic_solutions_is_shown() -> None:
+    assert RiccatiSolutions((), None, w**2 - x, True, None)._repr_latex_() == "$w^{2} - x = 0$"  # type: ignore[arg-type]
+
+
+def test_numbers_with_logarithms_are_zero() -> None:
+    assert when_zero(log(6) - log(2) - log(3)) is Zero.ALWAYS
+
+
+def test_integrals_of_powers_have_short_constants() -> None:
+    """(2 a + b) cancels in the factor that is read off at a point."""
+    found = antiderivative(x * (w * x + C1) ** Rational(3, 2), x)
+    assert sympy.denom(sympy.together(found)).subs(w, 1).is_number
+
+
+def test_fractions_of_waves_of_the_double_angle() -> None:
+    assert Rational(1, 2) + 1 / (2 * cos(2 * x)) in fractions_of_waves(sin(x) ** 2 / cos(2 * x) + 1, x)
+
+
+def test_the_angle_of_a_falling_tangent_is_continuous() -> None:
+    """atan(1 - 2 tan(x))."""
+    assert not _continuous_angle(1 - 2 * w, x, w).has(w)
+
+
+def test_values_of_polynomials_of_a_symbolic_degree_and_of_integrals() -> None:
+    """H_n' = 2 x H_n - H_(n+1), also for n = 0; an integral from the point on is 0 there, beside a form 0/0."""
+    degree = Symbol("n", integer=True, nonnegative=True)
+    value, slope = values_at(sympy.hermite(degree, x), x, sympy.S.One)
+    assert [(value.subs(degree, j), slope.subs(degree, j)) for j in (1, 2)] == [(2, 2), (2, 8)]
+    assert slope.subs(degree, 0) == 0
+    integral = sympy.Integral(exp(C1**2), (C1, 0, x))
+    assert value_or_limit(integral + sin(x) / x, x, sympy.S.Zero) == 1
+
+
+def test_limits_in_another_direction_and_of_a_function_without_values() -> None:
+    """2F0(a, b; i/x) tends to 0 as x^a; nothing is known of g(x)."""
+    assert limit_at(sympy.hyper((Rational(1, 3), Rational(1, 2)), (), sympy.I / x), x, Approach(sympy.S.Zero)) == 0
+    with pytest.raises(UnknownLimit):
+        limit_at(sympy.Function("g")(x) + x, x, Approach(oo))
+
+
+def test_a_logarithm_of_an_imaginary_letter_has_no_real_values() -> None:
+    assert not needed_for([x * log(Symbol("c", imaginary=True))], x).has_real_parts
+
+
+def test_waves_of_other_forms_are_left() -> None:
+    assert not [*wave_zeros(sin(x) / cos(x), x, 0, 10), *wave_zeros(sin(w * x), x, 0, 10)]
+    assert _at_tangent(log(sqrt(w) + 1), x, w) == log(sqrt(sin(x) / cos(x)) + 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("w' = w + w^3", "Note: -w(x) is a solution, too."),
+        ("w' = 2*w", "w(x) = C1*exp(2*x)"),
+    ],
+)
+def test_steps_for_powers_and_without_a_right_hand_side(text: str, said: str) -> None:
+    steps_there = kovacic.general_solution.explain(text)
+    assert said in steps_there
+    assert ("w^m makes it linear" in steps_there) == ("^" in text)
+    assert "integrating factor" not in steps_there or "int p/h" not in steps_there
+
+
+def test_a_parameter_in_the_conditions_is_no_eigenvalue() -> None:
+    assert answer_to("y'' + lambda*y = 0, y(0)=0, y(-L)=0").eq.rhs.has(Symbol("L"))
+    assert answer_to("y'' + lambda*y = 0, y(0)=0, y(lambda)=0").eq.rhs == 0

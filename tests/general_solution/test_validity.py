@@ -270,6 +270,9 @@ def test_answers_in_logarithms_of_waves_are_real_for_small_angles(right: str) ->
         ("log(x) + log(-x - 1)", "x != 0, x + 1 != 0"),
         ("log(x^2 - 4) + sqrt(x - 2)", "x > 2"),
         ("log(x)/(x - 1)", "x - 1 != 0, x > 0"),
+        ("log(x^(1/3)*k)", "x > 0, k > 0"),
+        ("log((x + 1)^(3/2))", "x + 1 > 0"),
+        ("Integral(log(s), (s, 1, x))", "x > 0"),
     ],
 )
 def test_relations_in_x_are_one_interval(value: str, needed: str) -> None:

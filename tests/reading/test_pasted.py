@@ -21,7 +21,8 @@ from build import parametrize, read_input
 import kovacic
 from kovacic.cli.main import run
 from kovacic.doubles.lambdify import lambdify
-from kovacic.general_solution.question import apart, read_question
+from kovacic.general_solution.conditions import apart
+from kovacic.general_solution.question import read_question
 from kovacic.reading import notations
 from kovacic.reading.dialects import in_own_notation, plain_tokens, tokenize
 from kovacic.reading.lexer import scanned
