@@ -124,81 +124,87 @@ def _item_of(number: int, value: Any, text: str, var: str | None) -> Item:
     """The item of a string or an object; a refused line is shown as `text`."""
     if isinstance(value, str):
         return Item(number, value, var)
-    if not isinstance(value, Mapping):
-        hint = 'a string, or an object like {"S": "x^2 + 3"}'
-        return Item(number, text, var, error=ParseError("the line is neither a string nor an object", hint=hint))
-    extra = {"id": value["id"]} if "id" in value else {}
+    extra: dict[str, Any] = {}
     try:
-        json.dumps(extra, allow_nan=False)
-    except (TypeError, ValueError, RecursionError):
-        wrong = type(extra["id"]).__name__
-        return Item(number, text, var, error=InputError(f"an id is a JSON value, not a {wrong}", hint="use text"))
-    error = _flaw_of(list(value))
-    if error is not None:
+        if not isinstance(value, Mapping):
+            hint = 'a string, or an object like {"S": "x^2 + 3"}'
+            raise ParseError("the line is neither a string nor an object", hint=hint)
+        if "id" in value:
+            try:
+                json.dumps(value["id"], allow_nan=False)
+            except (TypeError, ValueError, RecursionError):
+                raise InputError(
+                    f"an id is a JSON value, not a {type(value['id']).__name__}", hint="use text"
+                ) from None
+            extra = {"id": value["id"]}
+        key = _expression_key(list(value))
+        own = value.get("var") or var
+        if not isinstance(value[key], str) or not isinstance(own, str | None):
+            raise InputError(f"the values of {key!r} and 'var' are strings")
+        names = value.get("names") or ()
+        names = names.split() if isinstance(names, str) else names
+        if not isinstance(names, list | tuple) or not all(isinstance(name, str) for name in names):
+            raise InputError("the value of 'names' is a list of strings")
+        return Item(number, value[key], own, extra, names=tuple(names))
+    except InputError as error:
         return Item(number, text, var, extra, error)
-    (key,) = set(_EXPRESSION_KEYS) & set(value)
-    own = value.get("var") or var
-    if not isinstance(value[key], str) or not (own is None or isinstance(own, str)):
-        return Item(number, text, None, extra, InputError(f"the values of {key!r} and 'var' are strings"))
-    names = value.get("names") or ()
-    if isinstance(names, str):
-        names = names.split()
-    if not isinstance(names, list | tuple) or not all(isinstance(name, str) for name in names):
-        return Item(number, text, own, extra, InputError("the value of 'names' is a list of strings"))
-    return Item(number, value[key], own, extra, names=tuple(names))
 
 
-def _flaw_of(names: Sequence[str], *, others: bool = False) -> InputError | None:
-    """The error in the keys of an object, or of a table with `others`: a repeated name, two expressions, an unknown key."""
+def _expression_key(names: Sequence[str], *, others: bool = False) -> str:
+    """The key with the expression, among those of an object, or of a table, which may have `others`.
+
+    Raises `InputError` for a repeated or an unknown key, and unless there is one expression.
+    """
     for name, count in Counter(names).items():
         if count > 1:
-            return InputError(f"two columns have the name {name!r}")
+            raise InputError(f"two columns have the name {name!r}")
         if name not in _ITEM_KEYS and not others:
-            return InputError(
-                f"unknown key {name!r}", hint=f"the keys are {', '.join(_ITEM_KEYS)}; an id may be any JSON value"
-            )
-    found = [name for name in _EXPRESSION_KEYS if name in names]
-    if len(found) > 1:
-        return InputError(f"{found[0]!r} and {found[1]!r} both name the expression", hint="keep one of them")
-    if found:
-        return None
-    return InputError(f"there is no {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
+            hint = f"the keys are {', '.join(_ITEM_KEYS)}; an id may be any JSON value"
+            raise InputError(f"unknown key {name!r}", hint=hint)
+    match [name for name in _EXPRESSION_KEYS if name in names]:
+        case [key]:
+            return key
+        case [first, second, *_]:
+            raise InputError(f"{first!r} and {second!r} both name the expression", hint="keep one of them")
+    raise InputError(f"there is no {_EXPRESSION_KEYS[0]!r} with the expression", hint='{"S": "x^2 + 3"}')
 
 
 def _csv_items(lines: Iterator[Item], longest: int, var: str | None) -> Iterator[Item]:
     """The rows of a CSV file.  Without a header the expressions are in the first column, and the others have numbers."""
     rows = _Rows(lines, longest)
-    header: tuple[str, ...] | None = None  # the names of the columns; none without a header
+    header: Sequence[str] | None = None  # the names of the columns; none without a header
     flaw: InputError | None = None  # of the header, after which no row can be read
     while (row := rows.next(len(header or ()))) is not None:
         line, cells = row
         text = ",".join(cells) or line.text.strip()
-        if line.error is not None:
-            header = header or ()
-            yield Item(line.number, text, var, error=line.error)
-        elif any(cells):
-            if header is None:
-                header, flaw = _header(cells, text, line.number)
-                if header and flaw is None:
-                    continue
-            yield Item(line.number, text, var, error=flaw) if flaw else _row_item(header, line.number, cells, text, var)
+        is_first = header is None and line.error is None and any(cells)
+        if is_first:
+            try:
+                header = _header(cells, text, line.number)
+            except InputError as error:
+                header, flaw = (), error
+        if line.error is not None or (flaw is not None and any(cells)):
+            yield Item(line.number, text, var, error=line.error or flaw)
+        elif any(cells) and not (is_first and header):
+            yield _row_item(header or (), line.number, cells, text, var)
 
 
-def _header(cells: list[str], text: str, number: int) -> tuple[tuple[str, ...], InputError | None]:
-    """The first row as a header, if it has a key or consists of words, and the error in it."""
+def _header(cells: list[str], text: str, number: int) -> Sequence[str]:
+    """The first row as a header, if it has a key or consists of words; else empty.  Raises `InputError` for errors in it."""
     if any(cell.strip() in _ITEM_KEYS for cell in text.split(";")) and ";" in text:
-        return (), InputError("semicolons between cells", hint="write commas there, and points in decimals")
+        raise InputError("semicolons between cells", hint="write commas there, and points in decimals")
     is_of_words = all(map(str.isidentifier, cells)) and max(map(len, cells)) > 1
     if not is_of_words and set(_ITEM_KEYS).isdisjoint(cells):
-        return (), None
-    flaw = _flaw_of(cells, others=True)
-    if flaw is not None:
+        return ()
+    try:
+        _expression_key(cells, others=True)
+    except InputError as error:
         hint = "name the column of the expressions S; if the file has no header, put S as its first line"
-        flaw = InputError(f"line {number} as a header: {flaw.message}", hint=hint)
-    return tuple(cells), flaw
+        raise InputError(f"line {number} as a header: {error.message}", hint=hint) from None
+    return cells
 
 
-def _row_item(header: tuple[str, ...], number: int, cells: list[str], text: str, var: str | None) -> Item:
+def _row_item(header: Sequence[str], number: int, cells: list[str], text: str, var: str | None) -> Item:
     """The item of a row; columns that mean nothing are carried along."""
     if header:
         named = dict(zip(header, cells, strict=True))

@@ -157,9 +157,8 @@ class Command(click.Command):
     def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
         _, _, order = self.make_parser(context).parse_args(list(args))
         for parameter, count in Counter(order).items():
-            if not isinstance(parameter, click.Option) or parameter.multiple or parameter.is_flag or parameter.count:
-                continue
-            if count > 1:
+            is_option = isinstance(parameter, click.Option)
+            if is_option and count > 1 and not (parameter.multiple or parameter.is_flag or parameter.count):
                 raise click.UsageError(f"{max(parameter.opts, key=len)} is given {count} times", context)
         return super().parse_args(context, args)
 
@@ -219,14 +218,10 @@ def _is_expression(argument: str, options: Mapping[str, click.Option | None]) ->
     """True if the argument begins with a minus sign, and isn't one of the `options`, known by all of their names."""
     if argument[:1] != "-" or argument == "-" or argument in options:
         return False
-    if argument.startswith("--"):
-        return not argument[2:3].isalpha()
     option = options.get(argument[:2])
-    if option is None:
-        return True
-    is_number = isinstance(option.type, click.IntRange) and argument[2:].isdigit()
-    is_repeated = option.count and set(argument[1:]) == {argument[1]}
-    return not (is_number or is_repeated)
+    is_number = option is not None and isinstance(option.type, click.IntRange) and argument[2:].isdigit()
+    is_repeated = option is not None and option.count and set(argument[1:]) == {argument[1]}
+    return not (is_number or is_repeated or re.match("--[^\\W\\d_]", argument))
 
 
 equation_command = partial(click.command, cls=EquationCommand)
@@ -426,20 +421,13 @@ def fitted(text: str) -> str:
     if not sys.stdout.isatty():
         return text
     from shutil import get_terminal_size
+    from textwrap import TextWrapper
 
-    width = get_terminal_size().columns
+    wrapper = TextWrapper(get_terminal_size().columns, break_long_words=False, break_on_hyphens=False)
     lines = []
     for line in text.splitlines():
-        indent = " " * (len(line) - len(line.lstrip()) + 2)
-        while len(click.unstyle(line)) > width and not _TABLE_ROW.search(line):
-            end = len(line)
-            while end > 0 and len(click.unstyle(line[:end])) > width:
-                end = line.rfind(" ", len(indent), end)
-            if end <= 0:  # a formula without spaces
-                break
-            lines.append(line[:end])
-            line = indent + line[end:].lstrip()
-        lines.append(line)
+        wrapper.subsequent_indent = " " * (len(line) - len(line.lstrip()) + 2)
+        lines += [line] if _TABLE_ROW.search(line) or not line.strip() else wrapper.wrap(line)
     return "\n".join(lines)
 
 

@@ -113,7 +113,7 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
     paste = Paste(eq)
     values = dict(paste.conditions)
     if len(values) < len(paste.conditions):
-        raise error_at(eq, "a value is given twice", paste.scans("condition")[-1], "write every value once")
+        raise error_at(eq, "a value is given twice", paste.value_scans[-1], "write every value once")
     if values and ics:
         raise InputError("values stand in the equation's text and apart from it", hint="give them in one of these ways")
     return paste, values or ics

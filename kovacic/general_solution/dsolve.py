@@ -329,7 +329,7 @@ class _Asked:
             if EULER in names:
                 raise InputError(f"{EULER} is Euler's number, and no name of a parameter", hint="take another letter")
             paste = Paste(eq)
-            if len(paste.scans("equation")) > 1:
+            if len(paste.equation_scans) > 1:
                 reading = read_equations(paste, names=names)
                 eq, func, ics = reading.equations, func or reading.functions, ics or dict(reading.conditions)
                 guesses = reading.guesses

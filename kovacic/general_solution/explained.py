@@ -90,7 +90,7 @@ def explain(
 def is_problem(text: str) -> bool:
     """True for a text with values or a right-hand side, or with an equation that isn't linear of second order."""
     paste = Paste(text)
-    if not paste.is_equation or paste.conditions or len(paste.scans("equation")) > 1:
+    if not paste.is_equation or paste.conditions or len(paste.equation_scans) > 1:
         return paste.is_equation
     try:
         found = read_input(text, exponentials=True, equation=True).equation

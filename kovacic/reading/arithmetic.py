@@ -71,8 +71,7 @@ class Arithmetic:
         power = -len(digits)
         if scale:
             power += self.integer(scale)
-        if abs(power) > self.limits.digits:
-            raise LimitExceeded(f"over {self.limits.digits} digits, the limit", limit="digits")
+        demand(self.limits, "digits", abs(power), "{} digits")
         return fmpq(self.integer(whole + digits)) * fmpq(10) ** power
 
     def number(self, value: Value) -> Fraction | None:

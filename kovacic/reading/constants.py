@@ -18,8 +18,8 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.rationals import QQ, square_part
 from kovacic.equation import ENERGY, EULER
-from kovacic.errors import LimitExceeded
-from kovacic.limits import DEFAULT_LIMITS, Limits, demand
+from kovacic.errors import LimitExceeded, NotRational
+from kovacic.limits import DEFAULT_LIMITS, MOST_TRIALS, Limits, demand
 from kovacic.reading.arithmetic import PRINTED_BITS
 
 T = TypeVar("T")
@@ -89,6 +89,10 @@ class Constants:
             radical = rational, n
         root = next((known.root for known in self.radicals if radical == known[:2]), None)
         if root is None:
+            if (
+                n * self.numbers.absolute_degree > MOST_TRIALS
+            ):  # factoring takes 0.02 s over Q, and minutes in degree 1200
+                raise NotRational(f"{label} isn't an algebraic number of degree {MOST_TRIALS} or less")
             equation = self.numbers.poly([-value if rational is None else -rational, *[0] * (n - 1), 1])
             root = self._root(equation, principal_root(-equation[0], n), label, radical)
         return self._with_parameters(root * outer)

@@ -46,6 +46,8 @@ _SIGN_KINDS = {
 _LAST_CASE = ("True", "otherwise")
 _POWERS = ("^", "**")
 
+#: The kinds of the texts that rules write; all others are numbers and names.
+_WRITTEN_KINDS = {**_SIGN_KINDS, "diff": "HEAD", "True": "OTHERWISE"}
 #: How tokens of a kind are written, however they were.
 _WRITTEN_AS = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
 
@@ -172,8 +174,6 @@ class _Latex:
 _LEIBNIZ = re.compile(rf"d\^?([2-9]?)({LETTER}(?:_(?:[0-9]+|[A-Za-z]))?)?(?:{LETTER})?/d({LETTER})\^?\1")
 #: \partial_x, ∂ₓₓ.
 _INDEXED_OPERATOR = re.compile(r"d_([a-z])\1*")
-#: Tokens of the quotient of a derivative: a search to the end would take quadratic time.
-_LONGEST_QUOTIENT = 36
 #: Letters that end the argument of a function without parentheses, as in cos omega t.
 _VARIABLES = frozenset("xtzsr") | {"theta", "phi", "tau", "xi", "rho"}
 
@@ -210,8 +210,8 @@ class _Translation:
         #: The numbers in `found` of the parentheses that are open, and of the one that was closed last.
         self.opened: list[int] = []
         self.closed = 0
-        #: Tokens to be written before a token, by its number.
-        self.closers: dict[int, list[tuple[str, str]]] = {}
+        #: Texts to be written before a token, by its number.
+        self.closers: dict[int, list[str]] = {}
         self.skipped: set[int] = set()
         self.partner = {k: last for k, last in scan.partners.items() if self.texts[k] != "|"}
 
@@ -232,8 +232,9 @@ class _Translation:
         variable = "t" if any(DOTS in text for text in self.texts) else None
         return ParserTokens([*self.found, Token("$END", "", end, end)], self.text, variable)
 
-    def write(self, kind: str, piece: str, token: Token | None = None) -> None:
+    def write(self, text: str, token: Token | None = None, kind: str = "") -> None:
         """A token where the `token` stands, or behind what was written before."""
+        kind = kind or _WRITTEN_KINDS.get(text) or ("NUMBER" if text.isdigit() else "NAME")
         if token is None:
             here = self.scan[min(self.k, len(self.scan)) - 1].end if self.k else self.scan[0].start
             token = Token("", "", here, here)
@@ -241,19 +242,19 @@ class _Translation:
             self.opened.append(len(self.found))
         elif kind == "RPAR":
             self.closed = self.opened.pop() if self.opened else -1
-        self.found.append(Token(kind, piece, token.start, token.end))
+        self.found.append(Token(kind, text, token.start, token.end))
 
     def close(self) -> None:
-        for kind, piece in self.closers.pop(self.k, ()):
-            self.write(kind, piece)
+        for text in self.closers.pop(self.k, ()):
+            self.write(text)
 
-    def later(self, k: int, *tokens: tuple[str, str]) -> None:
-        """Write tokens before number k, ahead of those that wait there already."""
-        self.closers[k] = [*tokens, *self.closers.get(k, [])]
+    def later(self, k: int, *texts: str) -> None:
+        """Write texts before token k, ahead of those that wait there already."""
+        self.closers[k] = [*texts, *self.closers.get(k, [])]
 
     def head(self, name: str, token: Token) -> None:
-        self.write("HEAD", name, token)
-        self.write("LPAR", "(")
+        self.write(name, token, "HEAD")
+        self.write("(")
 
     def compact(self, begin: int, end: int) -> str:
         """The tokens without brackets, for comparison."""
@@ -300,45 +301,49 @@ class _Translation:
             if inner is None or inner[:2] != (None, x):
                 break
             order, end = order + inner[2], inner[3]
-        by = [("COMMA", ","), ("NAME", x), ("COMMA", ","), ("NUMBER", str(order)), ("RPAR", ")")]
+        by = [",", x, ",", str(order), ")"]
         if y is None:
             behind = inner[3] if inner and inner[0] else self.operand_end(end)
-            written = [("OPERATOR", x), ("CIRCUMFLEX", "^"), ("NUMBER", str(order))]  # d^2/dx^2 - x
-            if behind is not None:
-                written = [("HEAD", "diff"), ("LPAR", "(")]
+            written = ["diff", "("]
+            if behind is None:  # d^2/dx^2 - x
+                self.write(x, whole, "OPERATOR")
+                written = ["^", str(order)]
+            else:
                 self.later(behind, *by)
         else:
             behind = self.argument_end(end)
-            written = [("HEAD", "diff"), ("LPAR", "("), ("NAME", y), *by]
+            written = ["diff", "(", y, *by]
             if behind is None and self.texts[end] == "(" and self.condition:
-                written = [("PRIMED", y + PRIME * order)]
+                self.write(y + PRIME * order, whole, "PRIMED")
+                written = []
             elif behind is not None and self.texts[behind - 2] == x:
                 end = behind
-        for kind, piece in written:
-            self.write(kind, piece, whole)
+        for text in written:
+            self.write(text, whole)
         self.k = end
         return True
 
     def quotient(self, k: int) -> tuple[str | None, str, int, int] | None:
         """y or None, x, the order, and the number of the token behind d^2y/dx^2 or d^2/dx^2; None for anything else."""
+        # Within `DEEPEST` tokens: a search to the end would take quadratic time.
         text = self.texts[k]
         closing = self.partner.get(k, k)
         if _INDEXED_OPERATOR.fullmatch(text) and self.text.startswith(("∂", "\\partial"), self.scan[k].start):
             return self.operator(text[2], len(text) - 2, k + 1)
-        inner = self.quotient(k + 1) if 0 < closing - k < _LONGEST_QUOTIENT else None
+        inner = self.quotient(k + 1) if 0 < closing - k < DEEPEST else None
         if inner is not None and inner[3] == closing:
             y, x, order, _ = inner
             return (y, x, order, closing + 1) if y else self.operator(x, order, closing + 1)
         if text in FRACTIONS:
             middle = self.operand_end(k + 1)
             end = middle and self.operand_end(middle)
-        elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + _LONGEST_QUOTIENT]:
+        elif (text.startswith("d") or closing > k) and "/" in self.texts[k : k + DEEPEST]:
             middle = self.texts.index("/", k)
             first = middle + 1  # of dx^2, (dx)^2 or (dx^2)
             end = self.power_end(first + 2 if self.texts[first] == "d" else self.partner.get(first, first) + 1)
         else:
             return None
-        if middle is None or end is None or end - k > _LONGEST_QUOTIENT or closing > middle:  # (d/dx + 1)
+        if middle is None or end is None or end - k > DEEPEST or closing > middle:  # (d/dx + 1)
             return None
         above, below = self.compact(k, middle), self.compact(middle, end)
         found = _LEIBNIZ.fullmatch(f"{above.removeprefix(text)}/{below}" if text in FRACTIONS else above + below)
@@ -355,7 +360,7 @@ class _Translation:
             return False
         self.differentiate_last()
         if self.texts[self.k + 3] != ")":
-            self.write("COMMA", ",", token)
+            self.write(",", token)
         self.k += 3
         return True
 
@@ -370,7 +375,7 @@ class _Translation:
             return True
         for _ in primes_of(token.text):
             self.differentiate_last()
-            self.write("RPAR", ")", token)
+            self.write(")", token)
         self.k += 1
         return True
 
@@ -389,7 +394,7 @@ class _Translation:
         """sin x, sin 2x, cos omega t, sin^2 x, sin^2(x), sin^{-1}(x), ln|x|."""
         name = token.text
         k = self.k + 1
-        power: list[tuple[str, str]] = []
+        power: list[str] = []
         if name not in BARE and not self.latex:
             return False
         exponent, k = self.exponent(k)
@@ -399,7 +404,7 @@ class _Translation:
                 hint = f"write 1/{token.text}(x) for the reciprocal"
                 raise error_at(self.text, f"{token.text}^(-1) can be read in two ways", [token], hint)
         elif exponent.isalnum():
-            power = [("CIRCUMFLEX", "^"), ("NUMBER" if exponent.isdigit() else "NAME", exponent)]
+            power = ["^", exponent]
         elif exponent:
             return False
         behind = self.factors_end(k)
@@ -408,7 +413,7 @@ class _Translation:
         self.head(name, token)
         if self.partner.get(k) == behind - 1:  # parentheses of its own
             self.skipped |= {k, behind - 1}
-        self.later(behind, ("RPAR", ")"), *power)
+        self.later(behind, ")", *power)
         self.k = k
         return True
 
@@ -451,10 +456,9 @@ class _Translation:
         primes = self.scan[self.k] if self.kinds[self.k] == "PRIMES" else None
         if primes is not None and primes.start <= token.end:
             self.k += 1
-            self.write("PRIMED", token.text + primes_of(primes.text), Token("", "", token.start, primes.end))
+            self.write(token.text + primes_of(primes.text), token._replace(end=primes.end), "PRIMED")
         else:
-            kind = "OTHERWISE" if token.text in _LAST_CASE else "NAME"
-            self.write(kind, token.text, token)
+            self.write(token.text, token, "OTHERWISE" if token.text in _LAST_CASE else "NAME")
         return True
 
     def prose(self, token: Token) -> bool:
@@ -473,15 +477,15 @@ class _Translation:
             # Mathematica's Piecewise[{{1, x < 5}}, 2] is Piecewise((1, x < 5), (2, True)); the last value is 0 by default.
             inner, outer = self.partner[k], self.partner[k - 1]
             self.skipped.add(inner)
-            default = [("COMMA", ","), ("LPAR", "("), ("NUMBER", "0")]
+            default = [",", "(", "0"]
             if self.texts[inner + 1] == ",":
                 default = []
-                self.later(inner + 2, ("LPAR", "("))
-            self.later(outer, *default, ("COMMA", ","), ("OTHERWISE", "True"), ("RPAR", ")"))
+                self.later(inner + 2, "(")
+            self.later(outer, *default, ",", "True", ")")
             return True
         if self.is_application(token, k):
             self.found[-1] = self.found[-1]._replace(kind="HEAD")
-        self.write("LPAR", "(", token)
+        self.write("(", token)
         return True
 
     def is_application(self, token: Token, k: int) -> bool:
@@ -499,19 +503,19 @@ class _Translation:
         end = middle and self.operand_end(middle)
         if middle is None or end is None:
             raise error_at(self.text, "something is missing behind this", [token], _EXAMPLE)
-        self.write("LPAR", "(", token)
+        self.write("(", token)
         self.k += 1
-        self.grouped(self.k, middle, ("SLASH", "/"))
-        self.grouped(middle, end, ("RPAR", ")"))
+        self.grouped(self.k, middle, "/")
+        self.grouped(middle, end, ")")
         return True
 
-    def grouped(self, begin: int, end: int, *behind: tuple[str, str]) -> None:
+    def grouped(self, begin: int, end: int, *behind: str) -> None:
         """Puts an operand into parentheses, if it has none."""
         if begin in self.partner:
             self.later(end, *behind)
             return
-        self.closers.setdefault(begin, []).append(("LPAR", "("))
-        self.later(end, ("RPAR", ")"), *behind)
+        self.closers.setdefault(begin, []).append("(")
+        self.later(end, ")", *behind)
 
     def root(self, token: Token) -> bool:
         r"""\sqrt{x}, \sqrt[3]{x}, √x, √(x+1), ∛x."""
@@ -526,10 +530,9 @@ class _Translation:
         if token.text != "\\sqrt" and self.texts[k] != "(":
             self.check_radicand(token, k, end)
         if index:
-            exponent = [("LPAR", "("), ("NUMBER", "1"), ("SLASH", "/"), ("NUMBER", index), ("RPAR", ")")]
-            self.later(end, ("CIRCUMFLEX", "^"), *exponent)
+            self.later(end, "^", "(", "1", "/", index, ")")
         else:
-            self.write("HEAD", "sqrt", token)
+            self.write("sqrt", token, "HEAD")
         self.k = k
         self.grouped(k, end)
         return True
@@ -549,7 +552,7 @@ class _Translation:
         if self.k in self.scan.partners:
             self.head("abs", token)
         elif self.k in self.scan.partners.values():
-            self.write("RPAR", ")", token)
+            self.write(")", token)
         else:
             return False
         self.k += 1
@@ -560,7 +563,7 @@ class _Translation:
         if not kind:
             return False
         self.k += 1
-        self.write(kind, _WRITTEN_AS.get(kind, token.text), token)
+        self.write(_WRITTEN_AS.get(kind, token.text), token, kind)
         return True
 
 

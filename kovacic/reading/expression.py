@@ -34,8 +34,6 @@ _SHOWN_DECIMALS = 3
 
 #: The functions that stand for roots, with their index (root has it as its second argument).
 ROOTS = {"sqrt": 2, "cbrt": 3, "root": 0}
-#: Roots of a higher index aren't tried: the polynomial x^n - a is factored, in a field whose degree is at most 24.
-_LARGEST_INDEX = 100
 
 
 def parse_with(text: str, names: Mapping[str, Value], arithmetic: Arithmetic) -> Value:
@@ -135,9 +133,9 @@ class RationalReader:
                 return self._radical(value, ROOTS[name], site)
             case "root", [value, index]:
                 number = self.arithmetic.number(index)
-                if number is None or number.denominator != 1 or not 1 < number <= _LARGEST_INDEX:
-                    said = f"the index of a root is an integer from 2 to {_LARGEST_INDEX}"
-                    raise NotRational(said, hint="root(2, 3) is the cube root of 2")
+                if number is None or number.denominator != 1 or number < 2:
+                    hint = "root(2, 3) is the cube root of 2"
+                    raise NotRational("the index of a root is an integer from 2 on", hint=hint)
                 return self._radical(value, number.numerator, site)
             case (("Integer" | "S"), [value]) if self.arithmetic.number(value) is not None:
                 return value  # type: ignore[no-any-return]
@@ -184,8 +182,6 @@ class RationalReader:
             kind = "n algebraic number" if constant else " rational function"
             hint = "exponents are integers, and roots those of numbers"
             raise NotRational(f"{place.text()} isn't a{kind}", hint=hint)
-        if number.denominator > _LARGEST_INDEX:
-            raise NotRational(f"{place.text()} isn't an algebraic number of degree {_LARGEST_INDEX} or less")
         return self.arithmetic.power(self._radical(base, number.denominator, place), number.numerator)
 
 

@@ -93,11 +93,10 @@ def scanned(text: str) -> list[Token]:
         origins = [k for k, piece in enumerate(pieces) for _ in piece]
     tokens: list[Token] = []
     for found in _TOKEN.finditer(plain):
-        start, end = origins[found.start()], origins[found.end() - 1] + 1
-        if found.lastgroup == "CHARACTER":  # Mathematica's \[Alpha]1
-            tokens.append(Token("WORD", found[0][2:].replace("]", "").lower(), start, end))
-        else:
-            tokens.append(Token(str(found.lastgroup), found[0], start, end))
+        kind, word = str(found.lastgroup), found[0]
+        if kind == "CHARACTER":  # Mathematica's \[Alpha]1
+            kind, word = "WORD", word[2:].replace("]", "").lower()
+        tokens.append(Token(kind, word, origins[found.start()], origins[found.end() - 1] + 1))
     return tokens
 
 

@@ -1,8 +1,6 @@
-"""A text that was pasted, taken apart into pieces with roles, before anything in it is read.
+"""A text that was pasted, taken apart before anything in it is read.
 
 >>> paste = Paste("sol := dsolve({diff(y(x),x$2) + y(x) = 0, y(0) = 1, D(y)(0) = 0}, y(x));")
->>> [piece.role for piece in paste.pieces]
-['command', 'equation', 'condition', 'condition', 'name']
 >>> paste.conditions
 (PlacedValue(place='y(0)', value='1'), PlacedValue(place="y'(0)", value='0'))
 >>> Paste("3. Solve the equation y'' + y = 0;  // easy").notes
@@ -18,7 +16,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import cached_property
-from itertools import takewhile
+from itertools import compress, takewhile
 from typing import NamedTuple
 
 from kovacic.errors import ParseError
@@ -50,17 +48,6 @@ _BEGINNINGS = ("WORD", "COMMAND", "NEWLINE", "TEXT", "NUMBER")
 _DISPLAYS = ("\\displaystyle", "\\boxed")
 _INEQUALITIES = frozenset({*"<>≠", "<=", ">="})
 _NAMED_POINTS = frozenset({*INFINITIES, "pi", "\\pi"})
-
-
-class PastedPiece(NamedTuple):
-    """A part of a text and its role.
-
-    The roles are equation, condition, name (of the unknown function or the variable in a command), command, declaration,
-    number (in a list), prose, remark (an inequality).
-    """
-
-    role: str
-    scan: Tokens
 
 
 class PlacedValue(NamedTuple):
@@ -165,47 +152,49 @@ SURROUNDINGS = (
 
 
 class Paste:
-    """A text taken apart; `variable` is one that a command names, `notes` say what was left out.
+    """A text taken apart into the tokens of each equation and of each value.
 
-    Raises `ParseError` for arguments of a command that say nothing about the equation.
+    `variable` is one that a command names, `notes` say what was left out.  Raises `ParseError` for arguments of a command
+    that say nothing about the equation.
     """
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.pieces: list[PastedPiece] = []
+        self.equation_scans: list[Tokens] = []
+        self.value_scans: list[Tokens] = []
+        self.has_command = False
+        #: The unknown function that a command names.
+        self.function: Token | None = None
         self.variable: str | None = None
         self.notes: list[str] = []
         #: Statements that have names, until they are used.
         self.named: dict[str, Tokens] = {}
         if self.plain is not None:
-            self.pieces.append(PastedPiece("equation", Tokens(self.plain[:-1])))
+            self.equation_scans.append(Tokens(self.plain[:-1]))
             return
         statements = list(_statements(_plain_tokens(text)))
         for scan in filter(None, map(self.without_surroundings, statements)):
             self.statement(scan, is_alone=len(statements) == 1)
-        is_solved = bool(self.scans("command") and self.scans("equation"))
+        is_solved = self.has_command and self.equation_scans
         for scan in [*self.named.values()]:
             if is_solved:  # MATLAB's dsolve(ode) where the values have names
                 self.notes.append(f"not used: {self.written(scan)}")
             elif not self.list_of(scan):
-                self.add("equation", scan)
-        # Conditions among the statements; where nothing else is there, the first one is an equation.
-        first, *others = self.scans("equation") or [Tokens()]
+                self.add(scan)
+        # Values among the statements; where nothing else is there, the first one is an equation.
+        first, *others = self.equation_scans or [Tokens()]
         letters = _argument_letters(first)
-        conditions = [id(scan) for scan in others if _is_condition(scan) and not letters & _argument_letters(scan)]
-        if len(conditions) < len(others) and _is_condition(first, is_first=True):
-            conditions.append(id(first))
-        self.pieces = [p._replace(role="condition") if id(p.scan) in conditions else p for p in self.pieces]
-
-    def scans(self, role: str) -> list[Tokens]:
-        return [piece.scan for piece in self.pieces if piece.role == role]
+        is_value = [_is_condition(scan) and not letters & _argument_letters(scan) for scan in others]
+        is_value.insert(0, not all(is_value) and _is_condition(first, is_first=True))
+        self.value_scans = [*compress(self.equation_scans, is_value)]
+        self.equation_scans = [scan for scan, is_one in zip(self.equation_scans, is_value, strict=False) if not is_one]
 
     @cached_property
     def is_equation(self) -> bool:
         """True for an equation, false for S alone."""
         if self.plain is not None:
             return "=" in self.text or PRIME in self.text
-        return any(map(is_equation, self.scans("equation")))
+        return any(map(is_equation, self.equation_scans))
 
     @cached_property
     def plain(self) -> ParserTokens | None:
@@ -216,19 +205,19 @@ class Paste:
     def equations(self) -> list[ParserTokens]:
         if self.plain is not None:
             return [self.plain]
-        return [in_own_notation(self.text, scan) for scan in self.scans("equation")]
+        return [in_own_notation(self.text, scan) for scan in self.equation_scans]
 
     @cached_property
     def conditions(self) -> tuple[PlacedValue, ...]:
-        return tuple(given for scan in self.scans("condition") for given in _placed_values(self.text, scan))
+        return tuple(given for scan in self.value_scans for given in _placed_values(self.text, scan))
 
-    def add(self, role: str, scan: Tokens) -> None:
-        """Adds a piece; left = right for the equation Eq(left, right) of SymPy."""
+    def add(self, scan: Tokens) -> None:
+        """Adds an equation or a value; left = right for SymPy's Eq(left, right)."""
         is_call = scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
         match Tokens(scan[2:-1]).split() if is_call else []:
             case [[*_, last] as left, [first, *_] as right, *_]:
                 scan = Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
-        self.pieces.append(PastedPiece(role, scan))
+        self.equation_scans.append(scan)
 
     def written(self, scan: Sequence[Token]) -> str:
         return self.text[scan[0].start : scan[-1].end] if scan else ""
@@ -250,7 +239,6 @@ class Paste:
                 self.check_number(left, rest)
             if around.kind:
                 self.notes.append(_NOTES[around.kind].format(self.written(left)))
-                self.add(around.kind, left)
             scan = rest
         if scan and scan[-1].text[-1] == "." and _has_equals(scan):  # y(0) = 1.
             return Tokens([*scan[:-1], scan[-1]._replace(text=scan[-1].text[:-1])])
@@ -273,7 +261,6 @@ class Paste:
             match [token.text for token in scan]:
                 case ["Differential", "(", variable, ")"] if is_letter(variable):  # Julia's D = Differential(t)
                     self.variable = variable
-            self.add("declaration", scan)
         elif self.command(scan):
             return
         elif name and not is_alone:
@@ -281,14 +268,11 @@ class Paste:
         elif self.list_of(scan):
             return
         elif is_alone or _has_equals(scan) or scan.has(("else",)):
-            self.add("equation", scan)
-        elif len(scan) == 1 and is_letter(scan[0].text) and "=" in self.text:
-            self.add("declaration", scan)  # x, t = var("x t")
+            self.add(scan)
         elif _has_equals(scan, _INEQUALITIES):
             self.notes.append(f"not used: {self.written(scan)}")
-            self.add("remark", scan)
-        else:
-            self.add("equation", scan)
+        elif len(scan) > 1 or not is_letter(scan[0].text) or "=" not in self.text:  # else x, t = var("x t")
+            self.add(scan)
 
     def command(self, scan: Tokens) -> bool:
         """The arguments of a command of another system: its equation, values, and names that occur in the equation."""
@@ -298,18 +282,18 @@ class Paste:
         opening = scan.span(match)[1] - 1
         if scan.partners.get(opening) != len(scan) - 1:
             return False
-        self.add("command", Tokens(scan[: opening + 1]))
+        self.has_command = True
         first, *rest = [self.resolved(_unquoted(part)) for part in Tokens(scan[opening + 1 : -1]).split()]
         if not first:
             return True
         if first[0].text in SOLVERS:
             return self.command(first)
         if not self.list_of(first):
-            self.add("equation", first)
-        names = {token.text for equation in self.scans("equation") for token in equation}
+            self.add(first)
+        names = {token.text for equation in self.equation_scans for token in equation}
         for part in rest:
             if not self.argument(part, names):
-                given = ", ".join(map(self.written, self.scans("equation")))
+                given = ", ".join(map(self.written, self.equation_scans))
                 said = f"{self.written(part)} isn't read in {self.written(scan[:1])}(...)"
                 raise error_at(self.text, said, part, f"give the equation and its values: {given}")
         return True
@@ -332,7 +316,7 @@ class Paste:
             return False
         for part in parts:
             if part and not self.list_of(part):
-                self.add("equation", part)
+                self.add(part)
         return True
 
     def argument(self, part: Tokens, names: set[str]) -> bool:
@@ -348,7 +332,7 @@ class Paste:
                     if len(part) > 1 or not is_letter(name):
                         return False
                     self.variable = name  # MATLAB's
-                self.add("name", part)
+                self.function = self.function or part[0]
                 return True
             case ["[" | "{", *_] if self.list_of(part):
                 return True
@@ -360,20 +344,20 @@ class Paste:
             case [name, "=", _, *_] if is_word(name):
                 return False
             case _ if _has_equals(part):
-                self.add("equation", part)
+                self.add(part)
                 return True
         return False
 
     def values_of_sage(self, inside: Sequence[Tokens]) -> bool:
         """Sage's ics=[x0, y0, dy0]."""
-        function = next((piece.scan[0] for piece in self.pieces if piece.role == "name"), None)
+        function = self.function
         if function is None or len(inside) != 3 or not all(inside):
             return False
         point, *values = inside
         opening, closing, equals = (Token("SIGN", sign, point[0].start, point[0].end) for sign in "()=")
-        primes = Token("PRIMES", PRIME, function.end, function.end)
-        self.add("equation", Tokens([function, opening, *point, closing, equals, *values[0]]))
-        self.add("equation", Tokens([function, primes, opening, *point, closing, equals, *values[1]]))
+        primes = [Token("PRIMES", PRIME, function.end, function.end)]
+        for k, value in enumerate(values):
+            self.add(Tokens([function, *primes[:k], opening, *point, closing, equals, *value]))
         return True
 
 

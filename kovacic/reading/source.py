@@ -41,12 +41,11 @@ def source_of(
     if isinstance(given, str):
         demand(limits, "text_length", len(given), "the text has {} characters")
         given = Paste(given)
-        values = given.scans("condition")
-        if values:
-            scan = given.scans("equation")[0]
+        if given.value_scans:
+            scan = given.equation_scans[0]
             hint = f"give the equation: {given.text[scan[0].start : scan[-1].end]}"
-            raise error_at(given.text, "initial values are accepted by `dsolve` only", values[0], hint)
-    scans = given.scans("equation")
+            raise error_at(given.text, "initial values are accepted by `dsolve` only", given.value_scans[0], hint)
+    scans = given.equation_scans
     if not scans:
         hint = "give S(x), for example x^2 + 3"
         raise ParseError("there is no expression: the text is empty", text=given.text, position=0, hint=hint)

@@ -51,7 +51,7 @@ _PATTERNS: dict[str, dict[str, str]] = {
         "lowergamma": "Gamma[{0}, 0, {1}]",
         "Heaviside": "UnitStep[{0}]",
         "Integral/2": "Integrate[{0}, {1}]",
-        "Integral/4": "Integrate[{0}, {{1}, {2}, {3}}]",
+        "Integral/4": "Integrate[{0}, {{{1}, {2}, {3}}}]",
         "RootSum": "RootSum[Function[{2}, {0}], Function[{2}, {1}]]",
     },
     "maple": {
@@ -179,7 +179,8 @@ def _printer(language: _Language) -> Any:
             if language.name == "Julia" and isinstance(expr, BesselBase) and expr.order.is_real is False:
                 raise InputError(f"Julia's {kind} has no complex orders")
             if own is not None:
-                return _filled(own, list(map(self._print, arguments)), language)
+                printed = [*map(self._print, arguments)]
+                return own.format(*printed) if "{0}" in own else own + ", ".join(printed).join(language.calls)
             if isinstance(expr, sympy.Tuple):
                 before, after = language.lists
                 if language.name == "Julia" and expr.args:  # a tuple, in which a single element needs the comma
@@ -208,16 +209,6 @@ def _pattern_arguments(expr: Expr) -> tuple[Expr, ...]:
         a = next(sympy.Symbol(name) for name in "abcrst" if name not in used)
         return expr.poly.as_expr().xreplace({expr.poly.gen: a}), expr.fun(a), a
     return tuple(getattr(expr, "args", ()))
-
-
-def _filled(own: str, arguments: list[str], language: _Language) -> str:
-    """A pattern with the arguments, or a name before all of them."""
-    if "{0}" not in own:
-        before, after = language.calls
-        return own + before + ", ".join(arguments) + after
-    for k, argument in enumerate(arguments):
-        own = own.replace(f"{{{k}}}", argument)
-    return own
 
 
 def _in_julia(shown: Any, expr: Expr) -> str | None:

@@ -872,5 +872,5 @@ def test_plain_texts_are_read_as_all_others() -> None:
         assert (list(found), found.text, found.variable) == (list(other), other.text, other.variable), text
         paste = Paste(text)
         assert paste.is_equation == ("=" in text or "'" in text)
-        assert (paste.notes, paste.variable, len(paste.pieces)) == ([], None, 1), text
+        assert (paste.notes, paste.variable, len(paste.equation_scans)) == ([], None, 1), text
     assert plain > 1000
