@@ -157,8 +157,9 @@ class Command(click.Command):
     def parse_args(self, context: click.Context, args: list[str]) -> list[str]:
         _, _, order = self.make_parser(context).parse_args(list(args))
         for parameter, count in Counter(order).items():
-            is_option = isinstance(parameter, click.Option)
-            if is_option and count > 1 and not (parameter.multiple or parameter.is_flag or parameter.count):
+            if not isinstance(parameter, click.Option) or parameter.multiple or parameter.is_flag or parameter.count:
+                continue
+            if count > 1:
                 raise click.UsageError(f"{max(parameter.opts, key=len)} is given {count} times", context)
         return super().parse_args(context, args)
 
