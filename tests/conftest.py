@@ -13,18 +13,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, settings
 
-SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large, HealthCheck.large_base_example]
-
-settings.register_profile(
-    "ci", max_examples=25, deadline=None, derandomize=True, database=None, suppress_health_check=SLOW
-)
-settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
-settings.register_profile("dev", deadline=None, suppress_health_check=SLOW)
-settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=SLOW, print_blob=True)
 PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "ci")
-settings.load_profile(PROFILE)
 
 #: The modules of `pytest -m quick`, with the examples in the docstrings of every room: arithmetic, the readers, the engine on
 #: published equations, groups, closed forms, values with bounds, parameters, JSON, the commands' examples.
@@ -61,6 +51,27 @@ collect_ignore = (
     if sys.platform == "win32"
     else []
 )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the profiles, but not in a process that gives the tests to others: they would wait for the import, 1 s."""
+    if config.getoption("numprocesses", None):
+        return
+    from hypothesis import HealthCheck, Phase, settings
+
+    quiet = [
+        HealthCheck.too_slow,
+        HealthCheck.filter_too_much,
+        HealthCheck.data_too_large,
+        HealthCheck.large_base_example,
+    ]
+    settings.register_profile(
+        "ci", max_examples=25, deadline=None, derandomize=True, database=None, suppress_health_check=quiet
+    )
+    settings.register_profile("mutation", settings.get_profile("ci"), phases=[Phase.explicit, Phase.generate])
+    settings.register_profile("dev", deadline=None, suppress_health_check=quiet)
+    settings.register_profile("fuzz", deadline=None, database=None, suppress_health_check=quiet, print_blob=True)
+    settings.load_profile(PROFILE)
 
 
 def pytest_sessionstart() -> None:

@@ -168,12 +168,15 @@ def test_the_right_hand_side_says_on_which_side_an_answer_is_meant() -> None:
         assert all(relation.subs(x, sympy.Rational(-7, 10)) == sympy.true for relation in answer.validity.real)
 
 
-def test_a_turned_pair_keeps_its_wronskian() -> None:
+@parametrize(("m", "letters"), [("2", "n"), ("m", "nm"), ("1", "n")], ordinary=(0,))
+def test_a_turned_pair_keeps_its_wronskian(m: str, letters: str) -> None:
     """(1 - x^2)^(m/2) beside P_n^m, which is real between -1 and 1; and its W has no special functions of x."""
-    answer = kovacic.answer_to(
-        "(1-x^2)*y'' - 2*x*y' + (n*(n+1) - m^2/(1-x^2))*y = 0", assume={"n": "natural", "m": "natural"}
-    )
+    equation = f"(1-x^2)*y'' - 2*x*y' + (n*(n+1) - {m}^2/(1-x^2))*y = 0"
+    answer = kovacic.answer_to(equation, assume=dict.fromkeys(letters, "natural"))
     assert str(answer.validity) == "1 - x**2 > 0"
     assert not answer.basis.wronskian.has(sympy.hyper, sympy.assoc_legendre)
+
+
+def test_the_wronskian_of_gauss_functions_is_a_product_of_powers() -> None:
     gauss = kovacic.answer_to("x*(1-x)*y'' + (c-3*x)*y' - y = 0")
     assert gauss.basis.wronskian.subs("c", 5) == 4 * (1 - x) ** 2 / x**5

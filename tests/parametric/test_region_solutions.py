@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable
-from itertools import product
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import pytest
@@ -163,7 +162,8 @@ def test_regions_without_known_solutions_and_pickles(capsys: pytest.CaptureFixtu
     assert "where n - 1/2 is a natural number" in capsys.readouterr().out
 
 
-def test_where_a_jacobi_polynomial_vanishes_is_said_in_short() -> None:
+@parametrize(("d", "numbers"), [(1, (0, 2)), *((d, range(-5, 7)) for d in range(5))], ordinary=(0,))
+def test_where_a_jacobi_polynomial_vanishes_is_said_in_short(d: int, numbers: Sequence[int]) -> None:
     """Of one parameter where both are the same, and nothing where they are opposite; checked at each number."""
     region = kovacic.conditions("x*(1-x)*y'' + (c-2*x)*y' - m*y = 0", var="x").regions[0]
     solutions = region.solution()
@@ -173,10 +173,9 @@ def test_where_a_jacobi_polynomial_vanishes_is_said_in_short() -> None:
     assert said[2:-2] == [""] * 4
     c, m = sympy.symbols("c m")
     for solution, words in zip(solutions, said, strict=True):
-        a = solution.jacobi[0]
-        for d, number in product(range(5), range(-5, 7)):
+        for number in numbers:
             there = {c: sympy.Integer(number)}
-            vanishes = bool(words) and -d <= a.xreplace(there) < -R(d, 2)
+            vanishes = bool(words) and -d <= solution.jacobi[0].xreplace(there) < -R(d, 2)
             for value in sympy.solve(solution.degree.xreplace(there) - d, m):
                 assert (solution.at({**there, m: value}) is None) == vanishes
 
