@@ -226,7 +226,7 @@ def the_ball() -> list[dict[str, Any]]:
 COUNTED = {
     "Taylor expansions": (transport, "expand"),
     "matrices of one": (way, "transition"),
-    "solutions in one": (way.DiscStep, "local"),
+    "values in one": (way.Local, "state"),
     "Frobenius series": (frobenius, "_expand"),
     "closed-form legs": (closed_form.CaseOneForm, "leg"),
     "legs by FLINT's functions": (classical.Classical, "leg"),

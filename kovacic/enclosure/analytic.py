@@ -25,7 +25,7 @@ ball: discs lead to the midpoint of a + T, and its state is spread over the ball
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -37,7 +37,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.atoms import Atoms
 from kovacic.enclosure.frame import upper_exponent
-from kovacic.enclosure.jets import CoefficientField, step_of
+from kovacic.enclosure.jets import CoefficientField, Jets, step_of
 from kovacic.enclosure.matrices import NOTHING, Affine, MapProduct, Matrix, State, compose, fundamental, real_part
 from kovacic.enclosure.points import (
     Constant,
@@ -50,12 +50,11 @@ from kovacic.enclosure.points import (
     in_balls,
     middle,
     power_of_two,
-    root_below,
     to_acb,
     to_ball,
 )
 from kovacic.enclosure.problem import Coefficients, NumericProblem, cleared, root_of
-from kovacic.enclosure.way import Forecast, States, Traveller, Way, WayStep, spread
+from kovacic.enclosure.way import Followed, Forecast, States, Step, Traveller, Way, cover, spread
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time, count_work
 
@@ -68,54 +67,28 @@ _MOST_RIGHT_TERMS = 20
 _MOST_LOST_BITS = 10_000  # on a long way: 2.6 s there with three terms, and 44 s with 40,000 bits
 
 
-@dataclass(frozen=True)
-class Edge:
-    """A short piece with bounds (`values`) of b, c and f, on which (1) bounds the change of a solution."""
+def _edge(functions: CoefficientField, enter: ExactPoint, leave: ExactPoint) -> Step:
+    """A short piece on which (1) bounds the change of a solution; raises InputError unless the coefficients have bounds."""
+    middle = to_acb((enter + leave).scaled(fmpq(1, 2)))
+    length = abs(to_acb(leave - enter)).upper()
+    real = enter.is_real() and leave.is_real()
+    values = functions.values(middle + around_zero(length, real=real))
+    if not all(value.is_finite() for value in values):
+        raise InputError(f"the coefficients have no bound near {enter} or {leave}, an end of the path")
+    # The coefficients are analytic inside the piece, so real on all of it where they are on a part.
+    real = real and are_real(functions.values(middle + arb(0, length / 8)))
+    b, c, _ = values
 
-    leave: ExactPoint
-    values: Sequence[acb]
-    length: arb
-    real: bool
-
-    @classmethod
-    def of(cls, functions: CoefficientField, enter: ExactPoint, leave: ExactPoint) -> Edge:
-        """The piece with bounds on a ball that contains it; raises InputError if there are none."""
-        middle = to_acb((enter + leave).scaled(fmpq(1, 2)))
-        length = abs(to_acb(leave - enter)).upper()
-        real = enter.is_real() and leave.is_real()
-        values = functions.values(middle + around_zero(length, real=real))
-        if not all(value.is_finite() for value in values):
-            raise InputError(f"the coefficients have no bound near {enter} or {leave}, an end of the path")
-        # The coefficients are analytic inside the piece, so real on all of it where they are on a part.
-        real = real and are_real(functions.values(middle + arb(0, length / 8)))
-        return cls(leave, values, length, real)
-
-    @property
-    def matrix(self) -> Matrix:
-        """From where it is entered to where it is left, for the homogeneous equation."""
-        b, c, _ = self.values
+    def affine() -> Affine:
         starts = (acb(1), acb(0)), (acb(0), acb(1))
-        return fundamental(*(spread((b, c, acb(0)), self.length, start, real=self.real) for start in starts))
+        matrix = fundamental(*(spread((b, c, acb(0)), length, start, real=real) for start in starts))
+        return matrix, spread(values, length, NOTHING, real=real)
 
-    @property
-    def added(self) -> State:
-        """The contribution of the right-hand side."""
-        return spread(self.values, self.length, NOTHING, real=self.real)
+    def local(state: State) -> Followed:
+        everywhere = spread(values, length, state, real=real and are_real(state))
+        return lambda _: everywhere
 
-    def local(self, state: State) -> Resting:
-        """The solution on the piece, in one ball."""
-        return Resting(spread(self.values, self.length, state, real=self.real and are_real(state)))
-
-
-@dataclass(frozen=True)
-class Resting:
-    """A solution whose state lies in one ball on the whole piece."""
-
-    value: State
-
-    def state(self, _x: ExactPoint) -> State:
-        """(y, dy/dx)."""
-        return self.value
+    return Step(leave, affine, local)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,56 +143,42 @@ class AnalyticWay(Way):
         b, c, f = self.functions.values(ball, analytic=True)
         return b, c, f, are_real(self.functions.values(ball))
 
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
         # The length of a piece at an end where the coefficients aren't analytic, as a share of the way.
         edge = power_of_two(-self.prec - 16)
         length = b - a
         first = a if self.functions.is_regular(to_acb(a)) else a + length.scaled(edge)
         last = b if self.functions.is_regular(to_acb(b)) else b - length.scaled(edge)
         if first != a:
-            yield Edge.of(self.functions, a, first)
-        yield from self._discs(first, last)
-        if last != b:
-            yield Edge.of(self.functions, last, b)
+            yield _edge(self.functions, a, first)
 
-    def _discs(self, a: ExactPoint, b: ExactPoint) -> Iterator[WayStep]:
-        """The discs from a to b, where the coefficients are analytic."""
-        length = b - a
-        square = length.norm_squared()
-        t = fmpq(0)
-        e = (binary_exponent(square) + 1) // 2  # 2^(e + 1) is at least the length
-        while t < 1:
-            check_time()
+        def fits(centre: ExactPoint, e: int, enter: ExactPoint) -> Jets | None:
+            jets = self.functions.jets(centre, e, self.prec, self.steepest)
+            # Nothing lies behind the first disc: there 2^-least of the way counts.
+            least = max(512, 2 * self.prec)
+            behind = max((enter - first).norm_squared(), (last - first).norm_squared() / power_of_two(2 * least))
+            shortest = min(behind, (last - enter).norm_squared())
+            if jets is None and power_of_two(2 * (e + _SMALLEST_STEP_BITS)) < shortest:
+                raise _not_analytic(enter, first)
+            return jets
+
+        for enter, jets, leave in cover(first, last, binary_exponent(length.norm_squared()), fits):
             count_work(self.prec)
-            rest = 1 - t
-            # At most twice as large as the last one, and no larger than the rest of the way needs.
-            e = min(e + 1, (binary_exponent(square * rest * rest) + 1) // 2)
-            while True:
-                half = min(root_below(power_of_two(2 * e) / square, 12), rest / 2)  # 2^e as a share of the length
-                centre = a + length.scaled(t + half)
-                jets = self.functions.jets(centre, e, self.prec, self.steepest)
-                if jets is not None:
-                    break
-                e -= 1
-                _check_size(a, b, t, e, max(512, 2 * self.prec))
-            enter = a + length.scaled(t)
-            t += 2 * half
-            yield step_of(jets, enter, b if t == 1 else a + length.scaled(t))
+            yield step_of(jets, enter, leave)
+        if last != b:
+            yield _edge(self.functions, last, b)
 
 
-def _check_size(a: ExactPoint, b: ExactPoint, t: Any, e: int, start: int) -> None:
-    """Raise InputError if steps are so small compared with the ways behind and ahead that there must be a singular point."""
-    # Nothing lies behind the first disc: there 2^-start of the way counts.
-    shortest = min(t or power_of_two(-start), 1 - t)
-    if power_of_two(2 * (e + _SMALLEST_STEP_BITS)) < (b - a).norm_squared() * shortest * shortest:
-        where = to_acb(a + (b - a).scaled(t)).mid()
-        with working_precision(64):
-            shown = (where.real if where.imag.is_zero() else where).str(10, radius=False)
-        raise InputError(
-            f"the coefficients aren't known to be analytic near {shown}, on the path from {a}",
-            hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
-            "the result depends on the side",
-        )
+def _not_analytic(point: ExactPoint, start: ExactPoint) -> InputError:
+    """The error for steps so small compared with the ways behind and ahead that there must be a singular point."""
+    where = to_acb(point)
+    with working_precision(64):
+        shown = (where.real if where.imag.is_zero() else where).str(10, radius=False)
+    return InputError(
+        f"the coefficients aren't known to be analytic near {shown}, on the path from {start}",
+        hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
+        "the result depends on the side",
+    )
 
 
 @dataclass(frozen=True, eq=False)

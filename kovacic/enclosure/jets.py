@@ -38,7 +38,7 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -48,9 +48,10 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx, fmpq
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.enclosure.frame import log2
+from kovacic.enclosure.matrices import adjugate, inverse_matrix
 from kovacic.enclosure.points import ExactPoint, are_real, around_zero, binary_exponent, to_acb
 from kovacic.enclosure.problem import Coefficients
-from kovacic.enclosure.way import DiscStep, Local, check_terms
+from kovacic.enclosure.way import Local, Step, check_terms, disc_step
 from kovacic.limits import MOST_TRIALS, check_time, manageable
 
 _QUOTIENTS = {
@@ -393,21 +394,13 @@ def _growth_rate(sizes: Sequence[arb], h: arb) -> arb:
     return ((beta + (beta * beta + 4 * gamma).sqrt()) / 2).upper()
 
 
-def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> DiscStep:
+def step_of(jets: Jets, enter: ExactPoint, leave: ExactPoint) -> Step:
     """The disc of a way that is entered and left at these points."""
-    A, B, C, F = jets.parts
-    # Without rests a part is exactly zero.
-    is_homogeneous = F.degree() < 0 and jets.rests[3].is_zero()
-    has_area = not (B.degree() < 0 and jets.rests[1].is_zero())
-    # The Wronskian exp(-int B/A) is the slope of the solution of A y'' + B y' = 0 that begins with 0, 1.
-    without_c = replace(jets, parts=(A, B, C * 0, F), rests=(*jets.rests[:2], arb(0), arb(0)))
-    return DiscStep(
-        enter,
-        leave,
-        (_solution(jets, 0), _solution(jets, 1)),
-        own=None if is_homogeneous else _solution(jets, None),
-        area=_solution(without_c, 1) if has_area else None,
-    )
+    _, B, _, F = jets.parts
+    # Without rests a part is exactly zero; without B the Wronskian is constant.
+    own = None if F.degree() < 0 and jets.rests[3].is_zero() else _solution(jets, None)
+    inverse = adjugate if B.degree() < 0 and jets.rests[1].is_zero() else inverse_matrix
+    return disc_step(enter, leave, (_solution(jets, 0), _solution(jets, 1)), own, inverse)
 
 
 def _solution(jets: Jets, start: int | None) -> Local:

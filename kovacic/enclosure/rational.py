@@ -42,10 +42,12 @@ from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.classical import Classical, Closed
-from kovacic.enclosure.frame import System, frequency, largest_exponent, log2
+from kovacic.enclosure.frame import System, frequency, is_apart, largest_exponent, log2
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import (
+    NOTHING,
+    Affine,
     MapProduct,
     Matrix,
     State,
@@ -61,7 +63,7 @@ from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.splitting import is_split
 from kovacic.enclosure.start import recessive_rate
 from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, Forecast, Homogeneous, States, Traveller, Way, WayStep, position
+from kovacic.enclosure.way import MAX_DISCS, Followed, Forecast, States, Step, Traveller, Way, position
 from kovacic.limits import check_time, count_work
 
 #: Terms of the series for the amplitude: this number takes one or two seconds, twice as many take ten (measured).
@@ -128,45 +130,6 @@ def _half_power(x: arb, d: int) -> arb:
     return x ** (d // 2) if d % 2 == 0 else x ** ((d - 1) // 2) * x.sqrt()
 
 
-@dataclass(frozen=True)
-class Swing(Homogeneous):
-    """The step from one point of the half line to another."""
-
-    oscillation: Oscillation
-    enter: ExactPoint
-    leave: ExactPoint
-
-    @property
-    def matrix(self) -> Matrix:
-        """From the state where the step begins to that where it ends."""
-        return fundamental(*(self.local(state).state(self.leave) for state in ((acb(1), acb(0)), (acb(0), acb(1)))))
-
-    def local(self, state: State) -> Swinging:
-        """The solution on the half line, from its state where the step begins."""
-        count_work(self.oscillation.prec)
-        with working_precision(self.oscillation.prec + _BITS_FOR_PRODUCTS):
-            C = apply(inverse_matrix(self.oscillation.fundamental(self.enter)), state)
-            # |C| changes by at most (exp(I) - 1) |C|, over whichever part of the half line.
-            error = (self.oscillation.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
-        off = around_zero(error, real=are_real(C))
-        return Swinging(self.oscillation, (C[0] + off, C[1] + off))
-
-
-@dataclass(frozen=True)
-class Swinging:
-    """A solution on the half line: with constants that hold everywhere on it."""
-
-    oscillation: Oscillation
-    constants: State
-
-    def state(self, x: ExactPoint) -> State:
-        """(y, dy/dx); raises ArithmeticError elsewhere."""
-        if not self.oscillation.reaches(x):
-            raise ArithmeticError("the target lies outside of its half line")
-        with working_precision(self.oscillation.prec + _BITS_FOR_PRODUCTS):
-            return apply(self.oscillation.fundamental(x), self.constants)
-
-
 def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> ExactPoint:
     """Where, on the way from `near` out to `end`, one step to the end may begin; the end itself if discs are to go there."""
     found = _towards(system, end, prec) if near.is_real() and end.is_real() else None
@@ -179,11 +142,33 @@ def swing_from(system: System, near: ExactPoint, end: ExactPoint, prec: int) -> 
     return edge if is_long else end
 
 
-def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Swing:
+def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Step:
     """The step between two points of a half line, one of which `swing_from` gave for the other."""
     found = _towards(system, max(a, b, key=lambda point: abs(point.x)), prec)
     assert found is not None
-    return Swing(found, a, b)
+    bits = prec + _BITS_FOR_PRODUCTS
+
+    def local(state: State) -> Followed:
+        count_work(prec)
+        with working_precision(bits):
+            C = apply(inverse_matrix(found.fundamental(a)), state)
+            # |C| changes by at most (exp(I) - 1) |C|, over whichever part of the half line.
+            error = (found.change * (abs(C[0]).upper() + abs(C[1]).upper())).upper()
+        off = around_zero(error, real=are_real(C))
+        constants = C[0] + off, C[1] + off
+
+        def followed(x: ExactPoint) -> State:
+            if not found.reaches(x):
+                raise ArithmeticError("the target lies outside of its half line")
+            with working_precision(bits):
+                return apply(found.fundamental(x), constants)
+
+        return followed
+
+    def affine() -> Affine:
+        return fundamental(*(local(start)(b) for start in ((acb(1), acb(0)), (acb(0), acb(1))))), NOTHING
+
+    return Step(b, affine, local)
 
 
 def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
@@ -299,13 +284,13 @@ class RationalWay(Way):
             found.refuse()  # too many steps, were all as short as the first one has to be
         return found
 
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
         system = self.problem.system
         split = alone and is_split(system, self.prec, a, b)
         enter, leave = self._in_discs(a, b)
         if enter != a:
             yield swing(system, a, enter, self.prec)
-        yield from (step for _, step in walk(system, enter, leave, self.prec, alone=alone, split=split))
+        yield from (step for *_, step in walk(system, enter, leave, self.prec, alone=alone, split=split))
         if leave != b:
             yield swing(system, leave, b, self.prec)
 
@@ -356,6 +341,7 @@ class RationalWay(Way):
 
     def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Points) -> States:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
+        system = self.problem.system
         found: States = {}
         waiting = sorted(set(stops), key=lambda stop: (stop - here).norm_squared())
         inward = self.into(here)
@@ -364,18 +350,26 @@ class RationalWay(Way):
             self.check(here, farthest)
             maps = traveller.maps.after(inward)
             ahead = self.forecast(here, farthest)
-            for number, (disc, step) in enumerate(walk(self.problem.system, here, farthest, self.prec), 1):
-                served = [*disc.served(self.problem.system, here, waiting)]
+            for number, (enter, frame, step) in enumerate(walk(system, here, farthest, self.prec), 1):
+                # Those in the disc to which it carries a solution from here as the straight line does: without a singular
+                # point in the triangle, both ways are homotopic.  The end is reached along the way itself.
+                square = frame.scale**2
+                served = [
+                    stop
+                    for stop in waiting
+                    if stop == step.leave
+                    or ((stop - frame.centre).norm_squared() <= square and is_apart(system, here, enter, stop))
+                ]
                 if served:
                     local = step.local(maps.apply(traveller.start))
                     for stop in served:
                         # The walk has excluded the poles of S on the way to the stop, but none of gamma.
                         if self.problem.gauge:
                             self.check(here, stop)
-                        found[stop] = apply(self.out_of(here, stop), local.state(stop))
+                        found[stop] = apply(self.out_of(here, stop), local(stop))
                     waiting = [stop for stop in waiting if stop not in found]
-                if disc.leave != farthest:  # the matrix of the last step isn't needed
-                    maps = maps.after(step.matrix)
+                if step.leave != farthest:  # the matrix of the last step isn't needed
+                    maps = maps.after(*step.affine())
                     ahead.check(number)
         return found
 

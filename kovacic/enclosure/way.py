@@ -14,16 +14,17 @@ from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any, ClassVar, Protocol
+from functools import cache, cached_property
+from typing import Any, TypeVar
 
-from flint import acb, arb, arb_poly
+from flint import acb, arb, arb_poly, fmpq
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import foreseen_growth
 from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import (
     NOTHING,
+    Affine,
     MapProduct,
     Matrix,
     State,
@@ -41,11 +42,12 @@ from kovacic.enclosure.points import (
     around_zero,
     binary_exponent,
     power_of_two,
+    root_below,
     to_acb,
 )
 from kovacic.enclosure.singular import Singular
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.limits import check_duration, watched_seconds
+from kovacic.limits import check_duration, check_time, watched_seconds
 
 #: Discs after which their time tells that of the others.
 _DISCS_FOR_A_FORECAST = 16
@@ -53,6 +55,7 @@ _DISCS_FOR_A_FORECAST = 16
 MAX_DISCS = 200_000
 
 States = dict[ExactPoint, State]  # what was found, by points
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -88,34 +91,18 @@ class Local:
             return y, dy / arb((1, self.e))  # dy/dx = (dy/du)/2^e
 
 
-class Followed(Protocol):
-    """A solution on a part of a way."""
-
-    def state(self, x: ExactPoint) -> State:
-        """(y, dy/dx); raises ArithmeticError elsewhere."""
+Followed = Callable[[ExactPoint], State]
+"""A solution on a part of a way: (y, dy/dx) at a point; raises ArithmeticError elsewhere."""
 
 
-class WayStep(Protocol):
-    """A disc of a way, up to where the next one begins (`leave`).
+@dataclass(frozen=True, eq=False)
+class Step:
+    """A part of a way: `affine()` maps the state where it begins to that where it ends, at `leave`, and `local` gives the
+    solution with a state where it begins."""
 
-    The state there is `matrix` times that where it is entered, plus the contribution of a right-hand side, `added`.
-    """
-
-    @property
-    def leave(self) -> ExactPoint: ...
-    @property
-    def matrix(self) -> Matrix: ...
-    @property
-    def added(self) -> State: ...
-
-    def local(self, state: State) -> Followed:
-        """The solution in the disc, from its state where the disc is entered."""
-
-
-class Homogeneous:
-    """A step of an equation without a right-hand side."""
-
-    added: ClassVar[State] = NOTHING
+    leave: ExactPoint
+    affine: Callable[[], Affine]
+    local: Callable[[State], Followed]
 
 
 def check_terms(count: int, bits: int) -> None:
@@ -135,59 +122,84 @@ def transition(columns: Columns, x: ExactPoint) -> Matrix:
     return fundamental(first.state(x), second.state(x))
 
 
-@dataclass(frozen=True, eq=False)
-class DiscStep:
-    """A disc of a way by its solutions: `own` is one of the equation with its right-hand side, zero at the centre, and the
-    derivative of `area` is the Wronskian over that at the centre (None: it is constant)."""
+def disc_step(
+    enter: ExactPoint,
+    leave: ExactPoint,
+    columns: Columns,
+    own: Local | None = None,
+    inverse: Callable[[Matrix], Matrix] = adjugate,
+) -> Step:
+    """The step through a disc by its solutions: `own` is one of the equation with its right-hand side, zero at the centre."""
+    precision = columns[0].precision
 
-    enter: ExactPoint
-    leave: ExactPoint
-    columns: Columns
-    own: Local | None = None
-    area: Local | None = None
+    @cache
+    def to_centre() -> Matrix:
+        with working_precision(precision):  # FLINT rounds where it changes a sign
+            return inverse(transition(columns, enter))
 
-    @cached_property
-    def _to_centre(self) -> Matrix:
-        """From (y, y') where it is entered to that at the centre, at the precision of the columns whatever is in force."""
-        with working_precision(self.columns[0].precision):  # FLINT rounds where it changes a sign
-            m = adjugate(transition(self.columns, self.enter))
-            if self.area is None:
-                return m
-            # The Wronskian, which is the determinant: the inverse is the adjugate over it.
-            w = self.area.state(self.enter)[1]
-            return m[0] / w, m[1] / w, m[2] / w, m[3] / w
-
-    @cached_property
-    def matrix(self) -> Matrix:
-        """From (y, y') where it is entered to where it is left, without the right-hand side."""
-        return multiply(transition(self.columns, self.leave), self._to_centre)
-
-    @cached_property
-    def added(self) -> State:
-        """The contribution of the right-hand side: the particular solution that vanishes where the disc is entered."""
-        if self.own is None:
-            return NOTHING
+    def affine() -> Affine:
+        matrix = multiply(transition(columns, leave), to_centre())
+        if own is None:
+            return matrix, NOTHING
         # With p = `own` the solution is p + M (v - p(enter)): without v, p - M p(enter).
-        y, dy = apply(self.matrix, self.own.state(self.enter))
-        p, dp = self.own.state(self.leave)
-        return p - y, dp - dy
+        y, dy = apply(matrix, own.state(enter))
+        p, dp = own.state(leave)
+        return matrix, (p - y, dp - dy)
 
-    def local(self, state: State) -> Local:
-        """The solution in the disc with this state where it is entered."""
+    def local(state: State) -> Followed:
         # v - p(enter) is carried by the solutions without a right-hand side, and p has the factor 1.
-        p, dp = NOTHING if self.own is None else self.own.state(self.enter)
-        parts = [] if self.own is None else [(acb(1), self.own)]
+        p, dp = NOTHING if own is None else own.state(enter)
         total: Any = arb_poly([])
         errors = [arb(0), arb(0)]
-        with working_precision(self.columns[0].precision):
-            at_centre = apply(self._to_centre, (state[0] - p, state[1] - dp))
-            for factor, part in [*zip(at_centre, self.columns, strict=True), *parts]:
-                if not factor.is_zero():
+        with working_precision(precision):
+            factors = (*apply(to_centre(), (state[0] - p, state[1] - dp)), acb(1))
+            for factor, part in zip(factors, (*columns, own), strict=True):
+                if part is not None and not factor.is_zero():
                     # A real factor leaves a real polynomial real.
                     total = total + part.poly * (factor.real if factor.imag.is_zero() else factor)
                     size = abs(factor).upper()
                     errors = [errors[0] + size * part.error, errors[1] + size * part.slope_error]
-            return replace(self.columns[0], poly=total, error=errors[0].upper(), slope_error=errors[1].upper())
+            return replace(columns[0], poly=total, error=errors[0].upper(), slope_error=errors[1].upper()).state
+
+    return Step(leave, affine, local)
+
+
+def cover(
+    a: ExactPoint, b: ExactPoint, e: int, fits: Callable[[ExactPoint, int, ExactPoint], T | None]
+) -> Iterator[tuple[ExactPoint, T, ExactPoint]]:
+    """Discs that cover the straight way from a to b, the first one of radius 2^e at most: where each is entered, what `fits`
+    gives for it, and where it is left.
+
+    Both points lie on the way and in the disc, and so does the way between them.  `fits(centre, e, enter)` is None for a disc
+    that is too large.
+    """
+    is_real = a.is_real() and b.is_real()
+    sign = 1 if b.x > a.x else -1
+    enter = a
+    while enter != b:
+        rest = b - enter
+        square = rest.norm_squared()
+        # Centres are rounded to short numbers: discs of this radius contain the rest of the way, with room to spare.
+        wide = (binary_exponent(square) + 1) // 2
+        wide -= int(square < power_of_two(2 * wide - 2) * fmpq(7, 2))
+        e = min(e, wide)
+        while True:
+            check_time()
+            if e == wide:
+                centre, leave = (enter + rest.scaled(fmpq(1, 2))).rounded(e - 4), b
+            elif is_real:
+                unit, grain = sign * power_of_two(e), power_of_two(e - 4)
+                centre = ExactPoint(sign * ((sign * (enter.x + unit) / grain).floor() * grain))
+                leave = ExactPoint(centre.x + unit)
+            else:
+                ahead = rest.scaled(root_below(power_of_two(2 * e) / square, 6) * fmpq(15, 16))
+                centre, leave = (enter + ahead).rounded(e - 4), enter + ahead + ahead
+            found = fits(centre, e, enter)
+            if found is not None:
+                break
+            e -= 1
+        yield enter, found, leave
+        enter, e = leave, e + 2
 
 
 @dataclass
@@ -255,7 +267,7 @@ class Way(ABC):
         """An estimate of the discs from a to b; raises LimitExceeded if they are clearly too many."""
 
     @abstractmethod
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[WayStep]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
         """The discs from a towards b; `alone` if only the state at the end is needed."""
 
     @abstractmethod
@@ -292,7 +304,7 @@ class Way(ABC):
         ahead = self.forecast(a, b)
         maps = maps.after(self.into(a))
         for number, step in enumerate(self.walk(a, b, alone=True), 1):
-            maps = maps.after(step.matrix, step.added)
+            maps = maps.after(*step.affine())
             ahead.check(number)
         return maps.after(self.out_of(a, b))
 
@@ -353,7 +365,7 @@ class Ray:
         # Of disc k: how far from here it is left, the disc with the maps to where it is entered, and the solution in it if it
         # was needed.
         self._leave: list[Any] = []
-        self._passed: list[tuple[WayStep, MapProduct]] = []
+        self._passed: list[tuple[Step, MapProduct]] = []
         self._locals: dict[int, Followed] = {}
         self._steps = self.way.walk(self.here, self.far)
 
@@ -373,7 +385,7 @@ class Ray:
         if k not in self._locals:
             step, maps = self._passed[k]
             self._locals[k] = step.local(maps.apply(self.start))
-        return apply(self.way.out_of(self.here, stop), self._locals[k].state(stop))
+        return apply(self.way.out_of(self.here, stop), self._locals[k](stop))
 
     def _advance(self, stop: ExactPoint, place: Any) -> None:
         """To the disc that contains the stop."""
@@ -387,7 +399,7 @@ class Ray:
             step = next(self._steps)
             if self._passed:
                 last, maps = self._passed[-1]
-                maps = maps.after(last.matrix, last.added)
+                maps = maps.after(*last.affine())
             else:
                 maps = self.maps.after(self.way.into(self.here))
             self._passed.append((step, maps))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from random import Random
@@ -23,11 +22,11 @@ from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
 from kovacic.enclosure.frame import check_segment, distance_lower, foreseen_growth, frequency, shift
 from kovacic.enclosure.log_derivative import _principal_part
-from kovacic.enclosure.matrices import MapProduct, Matrix, State
+from kovacic.enclosure.matrices import NOTHING, MapProduct, State
 from kovacic.enclosure.points import as_point
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.transport import cover
-from kovacic.enclosure.way import Forecast, Local, Ray, Way
+from kovacic.enclosure.transport import frames
+from kovacic.enclosure.way import Followed, Forecast, Local, Ray, Step, Way
 
 
 def test_numbers_of_every_kind_are_read_exactly() -> None:
@@ -177,7 +176,7 @@ def test_an_irrational_singular_point_on_the_path_is_found_and_a_near_miss_isnt(
 def discs(pole: Fraction, a: ExactPoint, b: ExactPoint) -> int:
     system = system_of((3,), (-pole.numerator, pole.denominator))
     with Budget(Limits(seconds=5)).watched():
-        return sum(1 for _ in cover(system, a, b, 74))
+        return sum(1 for _ in frames(system, a, b, 74))
 
 
 def discs_stay_few(rng: random.Random, count: int) -> None:
@@ -211,9 +210,9 @@ def test_a_complex_path_comes_to_its_end(k: int) -> None:
     ends = [ExactPoint(p.re + Fraction(k, 97), p.im).scaled(Fraction(2) ** (k - 3)) for p in (a, b)]
     system = system_of((0, 1), (1,))
     with Budget(Limits(seconds=5)).watched():
-        assert sum(1 for _ in cover(system, ends[0], ends[1], 223)) < 400
+        assert sum(1 for _ in frames(system, ends[0], ends[1], 223)) < 400
         if k == 0:
-            assert len(list(cover(system, a, b, 223))) < 10
+            assert len(list(frames(system, a, b, 223))) < 10
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -222,7 +221,7 @@ def test_no_path_takes_fewer_steps_than_are_foreseen(seed: int) -> None:
     num = tuple(rng.randrange(-9, 10) * 10 ** rng.randrange(0, 6) for _ in range(rng.randrange(1, 4)))
     system = system_of((*num, 1), (1, 0, 1) if rng.random() < 0.5 else (1,))
     a, b = (ExactPoint(Fraction(rng.randrange(-40, 41), 4), Fraction(rng.randrange(2, 9), 8)) for _ in "ab")
-    steps = len(list(cover(system, a, b, 60)))
+    steps = len(list(frames(system, a, b, 60)))
     assert foreseen_growth(frequency(system), a, b) <= 2 * 110 * math.log(2) * steps
 
 
@@ -258,20 +257,15 @@ def test_a_singular_point_has_its_exact_name(den: tuple[int, ...], a: Any, b: An
     check_segment(system_of((1,), den), *(end + ExactPoint(Fraction(0), Fraction(9)) for end in ends))
 
 
-@dataclass(frozen=True)
-class StraightStep:
+def straight_step(enter: ExactPoint) -> Step:
     """A disc of y'' = 0, of radius 1/2."""
 
-    enter: ExactPoint
-    leave: ExactPoint
-    matrix: Matrix = (acb(1), acb(1), acb(0), acb(1))
-    added: State = (acb(0), acb(0))
-
-    def local(self, state: State) -> Local:
-        middle = self.enter + ExactPoint(Fraction(1, 2))
+    def local(state: State) -> Followed:
         y, dy = (value.real for value in state)
         poly = arb_poly([y + dy / 2, dy / 2])
-        return Local(middle, -1, poly, arb(0), arb(0), fmpq(1), 64)
+        return Local(enter + ExactPoint(Fraction(1, 2)), -1, poly, arb(0), arb(0), fmpq(1), 64).state
+
+    return Step(enter + ExactPoint(1), lambda: ((acb(1), acb(1), acb(0), acb(1)), NOTHING), local)
 
 
 class Straight(Way):
@@ -288,9 +282,9 @@ class Straight(Way):
     def forecast(self, a: ExactPoint, b: ExactPoint) -> Forecast:
         return Forecast(a, b, lambda _: arb(0), 1.0)
 
-    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[StraightStep]:
+    def walk(self, a: ExactPoint, b: ExactPoint, *, alone: bool = False) -> Iterator[Step]:
         while a != b:
-            yield StraightStep(a, a + ExactPoint(1))
+            yield straight_step(a)
             a = a + ExactPoint(1)
 
     def around(self, ball: acb) -> tuple[acb, acb, acb, bool]:

@@ -54,7 +54,7 @@ def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix
                 for a, b in pairwise(path):
                     way.check(a, b)
                 matrices.append(
-                    matrix_product([step.matrix for a, b in pairwise(path) for step in way.walk(a, b, alone=True)])
+                    matrix_product([step.affine()[0] for a, b in pairwise(path) for step in way.walk(a, b, alone=True)])
                 )
             except InputError:
                 assume(False)
