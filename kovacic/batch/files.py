@@ -239,8 +239,6 @@ class _Rows:
         if not taken:
             return None
         line = taken[0]
-        if line.error is not None:
-            return line, cells
         if columns and any(cells) and len(cells) != columns:
             error = ParseError(f"{len(cells)} cells in a table of {columns} columns")
         # An even number of quotation marks leaves none open.

@@ -11,6 +11,6 @@ fractions, roots, bars, derivatives.  `naming` decides what every name is, and `
 expression is walked by `symbolic`.  Both call a reader, which says what numbers, names and calls mean: `expression` (S),
 `differential` (equations), or `symbolic` (SymPy's expressions, and systems).  Readers calculate with `arithmetic`, or with
 `linear` where an unknown function or non-rational terms may occur.  Non-rational coefficients are tried by `functions`:
-`exponentials` makes exp(k x) a variable, `powers` x^k, which `change_of_variable` knows; `letters` stand for constants.
+`exponentials` makes exp(k x) or x^k a variable, which `change_of_variable` knows; `letters` stand for constants.
 `constants` has the field, `names` the names with a meaning; the results, `Equation` and `Parsed`, are `kovacic.equation`'s.
 """

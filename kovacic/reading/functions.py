@@ -12,10 +12,9 @@ from sympy.core.function import AppliedUndef
 
 from kovacic.equation import Parsed
 from kovacic.errors import InputError, NotRational
-from kovacic.reading.exponentials import in_exponentials
+from kovacic.reading.exponentials import in_exponentials, in_powers
 from kovacic.reading.letters import letters_for_constants, without_shifts
 from kovacic.reading.naming import Source
-from kovacic.reading.powers import in_powers
 from kovacic.reading.source import parts_of, read_source, read_with_numbers, source_of_parts
 from kovacic.reading.symbolic import expression_of, functions_in
 

@@ -86,9 +86,7 @@ def without_shifts(part: Expr, x: Expr) -> Expr:
 def _kernels(e: Expr, x: Expr, *, e_is_known: bool) -> list[Expr]:
     """The innermost constants that aren't rational in symbols and numbers (and powers of e, if `e_is_known`)."""
     base, exponent = e.as_base_exp()
-    arguments = [
-        each for each in e.args if isinstance(each, sympy.Expr)
-    ]  # a derivative also has a pair among its arguments
+    arguments = (each for each in e.args if isinstance(each, sympy.Expr))  # a derivative also has a pair among them
     inner = [kernel for argument in arguments for kernel in _kernels(argument, x, e_is_known=e_is_known)]
     if inner or e.has(x) or e.is_Symbol or e is sympy.pi or e.is_Add or e.is_Mul:
         return inner
@@ -101,12 +99,8 @@ class _LetterTable:
     """Letters with their meanings; a new letter has a name of its own."""
 
     def __init__(self, x: Expr, parts: Sequence[Expr]) -> None:
-        self.taken = {symbol.name for symbol in sympy.Tuple(*parts).free_symbols} | {
-            x.name,
-            UNKNOWN,
-            *NUMBER_NAMES,
-            *FUNCTION_NAMES,
-        }
+        used = {symbol.name for symbol in sympy.Tuple(x, *parts).free_symbols}
+        self.taken = {UNKNOWN, *used, *NUMBER_NAMES, *FUNCTION_NAMES}
         self.meanings: Meanings = {}
 
     def letter(self, meaning: Expr) -> Expr:

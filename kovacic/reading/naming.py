@@ -152,8 +152,6 @@ class Vocabulary:
             for k, kind in enumerate(tokens.kinds)
             if kind in _NAME_KINDS and pieces[k] != x and not self._is_known(tokens, k, x, y)
         ]
-        if not unknown:
-            return tokens, []
         rows = list(tokens)
         notes: dict[str, None] = {}
         for k in reversed(unknown):
@@ -194,7 +192,7 @@ class Vocabulary:
         elif name == f"d{x}":
             meant = f"write {y}' or d{y}/d{x} for a derivative"
         elif name.startswith(("asin", "acos", "atan")):
-            inside = name[4:] and f"({unglued(name[4:])})"
+            inside = f"({unglued(name[4:])})"
             meant = f"write a*{name[1:4]}{inside} for the product, {name[:4]}{inside} for the inverse function"
         elif len(name) > 3 and meant.count("*") == len(name) - 1:
             said, meant = f"{name} is a word that isn't known here", f"leave it out, {meant} for a product"

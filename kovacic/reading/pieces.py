@@ -305,8 +305,7 @@ class Paste:
         """{y'' + y = 0, y(0) = 1}, and SymPy's {y(0): 1}."""
         if scan[0].text not in ("{", "[") or not scan.is_enclosed:
             return False
-        if scan[0].text == "{":
-            scan = Tokens(token._replace(text="=") if token.text == ":" else token for token in scan)
+        scan = Tokens(token._replace(text="=") if token.text == ":" else token for token in scan)
         names = [token.text for token in scan[1:-1] if token.text != ","]
         if self.named.keys() >= {*names}:  # MATLAB's [cond1 cond2], too
             parts = [self.named.pop(name) for name in dict.fromkeys(names)]
