@@ -578,6 +578,14 @@ def test_the_variable_is_the_same_for_letters_and_special_numbers(shape: str) ->
         assert family.case_at(values) == solution.case, values
 
 
+@pytest.mark.parametrize(
+    ("S", "variable"),
+    [("1/(2 + cos(x))", "exp(I*x)"), ("exp(x)", "exp(x)"), ("cosh(x)", "exp(x)"), ("2^x", "exp(log_2*x)")],
+)
+def test_the_variable_of_coefficients_that_are_not_invariant(S: str, variable: str) -> None:
+    assert read_input(S, exponentials=True).equation.change.expression == variable
+
+
 def test_a_singular_point_that_is_ordinary_for_special_numbers_counts() -> None:
     family = kovacic.conditions("-a + 3*l*sech(x)^2/2", var="x", max_degree=0)
     solution = kovacic.solve("1/4 + 15*sech(x)^2/8")

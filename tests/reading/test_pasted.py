@@ -188,6 +188,8 @@ def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
         ("Rational(1, 2)/x^2 + S(2)*Pow(x, 2)", "x", "(4*x**4 + 1)/(2*x**2)"),
         ("x^{2} + 1", "x", "x**2 + 1"),
         (r"\frac{1}{x} - \frac{3}{16x^2}", "x", "(16*x - 3)/(16*x**2)"),
+        (r"\frac{d^{2}}{d x^{2}} y{\left(x \right)} + y{\left(x \right)} = 0", "x", "-1"),
+        ("{y'' = x y}", "x", "x"),
     ],
 )
 def test_what_is_pasted(text: str, variable: str, S: str) -> None:
@@ -201,6 +203,7 @@ def test_what_is_pasted(text: str, variable: str, S: str) -> None:
         ("y'' = -k^2*y", "x is the variable, k a parameter"),
         ("y'' + 2*c*y' + w0^2*y = 0", "x is the variable, c, w0 parameters"),
         ("x^1/2", "a root is written ^(1/2)"),
+        ("(1+I)^(1/3)*x", "near 1.08422 + 0.290515*I"),
     ],
 )
 def test_what_is_guessed_is_said(text: str, note: str) -> None:
@@ -209,7 +212,15 @@ def test_what_is_guessed_is_said(text: str, note: str) -> None:
 
 @pytest.mark.parametrize(
     ("text", "hint"),
-    [("y'' = xab", "write x*a*b"), ("y'' + axy' = 0", "write a*x*y"), (r"y'' = \foo{x} y", "write for example")],
+    [
+        ("y'' = xab", "write x*a*b"),
+        ("y'' + axy' = 0", "write a*x*y"),
+        (r"y'' = \foo{x} y", "write for example"),
+        ("y.foo(x) = 0", "a derivative is y.diff(x, 2)"),
+        ("y'' + word y = 0", "leave it out"),
+        ("y'' + sin^(n+1)(x) y = 0", "a power of it sin(...)^2"),
+        ("dsolve(", "add ')' where it ends"),
+    ],
 )
 def test_what_is_not_read_is_refused_with_a_hint_that_works(text: str, hint: str) -> None:
     with pytest.raises(kovacic.InputError) as caught:
