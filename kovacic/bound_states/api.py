@@ -140,16 +140,14 @@ def spectrum(
 
 def _schroedinger_spectrum(given: Asked, max_degree: int, limits: Limits) -> Spectrum:
     """The levels as far as exact methods give them.  Raises `NotRational`."""
-    question = exact_problem(given, limits)
+    known = Examined(**vars(exact_problem(given, limits)))
     budget = Budget(limits)
     with budget.watched():
         try:
-            known = examined(question)
-        except (Uncovered, LimitExceeded) as reason:
-            known = Examined(**vars(question))
-            found = known.spectrum(reason=f"undecided: {reason}")
-        else:
+            known = examined(known)
             found = _all_levels(known, budget)
+        except (Uncovered, LimitExceeded) as reason:
+            found = known.spectrum(reason=f"undecided: {reason}")
         if found.complete or found.needs_boundary_condition:
             return found
         forms = closed_forms(known, max_degree, limits)

@@ -22,9 +22,9 @@ import sympy
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from kovacic.bound_states.levels import Spectrum
-from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem, constants_among, read_boundary
+from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem, read_boundary
 from kovacic.bound_states.signs import Signs
-from kovacic.equation import DEFAULT_VARIABLE, parameters_of
+from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.boundary_problems import read_domain
 from kovacic.limits import Limits
@@ -139,7 +139,9 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     own = own_parameters([name for name in names if name != question.energy], parsed.letters)
     known = read_assumptions(question.assumed or None, question.given, own)
     known = _with_letters(known, parsed.letters, own)
-    constants = constants_among(S, names)
+    # pi and e are parameters for the program, and aren't for users.
+    free = {*names} - {*names_of(S)}
+    constants = {name: value for name, value in ((PI, sympy.pi), (EULER, sympy.E)) if name in free}
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial, reduce
+from functools import cached_property, partial, reduce
 from itertools import chain
 from typing import Any, NamedTuple
 
@@ -75,36 +75,23 @@ _BARRED = "a solution with a polynomial that decays at one end doesn't at the ot
 _NUMBERED = "a level with k zeros is number k (Sturm)"
 
 
-@dataclass(kw_only=True)
-class ClosedForms:
-    """The levels with a closed form; `complete`: it is proven that these are all.
-
-    `reason` is the proven statement about them with its reason, or why it is undecided; `higher` a possible degree of P that
-    wasn't tried.
-    """
-
-    reason: str = NO_FORMULA_FOR_ALL
-    levels: dict[Any, Algebraic] = field(default_factory=dict)
-    complete: bool = False
-    higher: int | None = None
-
-
 def closed_forms(question: Examined, max_degree: int, limits: Limits) -> ClosedForms:
     """The closed forms of a potential; without `ends`, at which solutions are unknown, only a proof that there are none."""
     conditions = _solvable_conditions(question, limits)
+    found = ClosedForms(question, conditions, max_degree)
     if conditions is None:
-        return ClosedForms()
+        return found
+    found.complete = True
     if not conditions.regions:
-        why = f"the equation has no Liouvillian solution for any {question.energy}: {conditions.theory}"
-        return ClosedForms(reason=why, complete=True)
-    window = _Window() if question.parameters else _Window.of(question)
-    search = _ClosedFormSearch(
-        question=question, conditions=conditions, window=window, max_degree=max_degree, complete=True
-    )
-    search.reason = search.with_parameters() if question.parameters else search.of_numbers()
+        found.reason = f"the equation has no Liouvillian solution for any {question.energy}: {conditions.theory}"
+        return found
+    try:
+        found.reason = found.with_parameters() if question.parameters else found.of_numbers()
+    except LimitExceeded as limit:  # levels that were found stay
+        found.complete, found.reason = False, f"undecided: {limit}"
     # The norms come last: an integral that takes the rest of the time costs no level.
-    search.levels = {key: _with_norms(level, question) for key, level in search.levels.items()}
-    return search
+    found.levels = {key: _with_norms(level, question) for key, level in found.levels.items()}
+    return found
 
 
 def _with_norms(level: Algebraic, question: Examined) -> Algebraic:
@@ -180,18 +167,28 @@ def _number_below(V: Any, t: Any, bounds: tuple[Any, ...]) -> Any:
     return -sympy.oo
 
 
-@dataclass(kw_only=True)
-class _ClosedFormSearch(ClosedForms):
-    """Through the regions of the conditions: what was found, and `complete` as long as nothing may have been missed.
+@dataclass
+class ClosedForms:
+    """The levels with a closed form; `complete`: it is proven that these are all; during the search, that none was missed.
 
-    `are_all_listed` says that of the degrees that were tried; some levels need several equations for E and the parameters.
+    `reason` is the proven statement about them with its reason, or why it is undecided; `higher` a possible degree of P that
+    wasn't tried.  `are_all_listed` says that none was missed for the degrees that were tried: some levels need several
+    equations for E and the parameters.
     """
 
     question: Examined
-    conditions: ParametricAnswer
-    window: _Window
+    conditions: Any  # a `ParametricAnswer`; None if it isn't proven to be complete, and there is no search
     max_degree: int
+    reason: str = NO_FORMULA_FOR_ALL
+    levels: dict[Any, Algebraic] = field(default_factory=dict)
+    complete: bool = False
+    higher: int | None = None
     are_all_listed: bool = True
+
+    @cached_property
+    def window(self) -> _Window:
+        """Where levels may be."""
+        return _Window() if self.question.parameters else _Window.of(self.question)
 
     @property
     def E(self) -> Any:
@@ -475,7 +472,7 @@ def demands_of(v: Any, question: Examined) -> Iterator[Any]:
         local = rate.subs(t, there) * sympy.diff(there, u)
         if end.point == sympy.oo:  # of u v(1/u)
             local += 1 / u
-        order, strength = leading(question.signs.real(sympy.together(local)), u)
+        order, strength = leading(question.signs.real(local), u)
         if order < -1:  # v ~ exp(-strength/(k u^k)) with k = -order - 1
             yield exceeds(strength * end.direction ** (-order - 1), 0, strict=True)
         else:

@@ -148,8 +148,8 @@ def behaviour_at(question: SpectralProblem, real: RealPotential, side: int) -> E
     point = original.at(side)
     u = sympy.Dummy("u")
     t = near(point, u)
-    mu, C = leading(sympy.cancel(original.slope_squared(t) / sympy.diff(t, u) ** 2), u)
-    order, strength = leading(sympy.cancel(real.V.xreplace({real.t: t})), u)
+    mu, C = leading(original.slope_squared(t) / sympy.diff(t, u) ** 2, u)
+    order, strength = leading(real.V.xreplace({real.t: t}), u)
     direction = original.side_of(side)
     where = f"{question.variable} -> {question.shown(at)}: "
     is_regular = at.is_finite and order >= 0
@@ -171,9 +171,7 @@ def behaviour_at(question: SpectralProblem, real: RealPotential, side: int) -> E
 
 def leading(function: Any, u: Any) -> tuple[int, Any]:
     """The order at u = 0 and the coefficient; (0, 0) for 0."""
-    num, den = sympy.fraction(sympy.together(function))
-    if sympy.Poly(num, u).is_zero:
-        return 0, sympy.Integer(0)
+    num, den = sympy.fraction(sympy.cancel(function))
     (zeros,), top = sympy.Poly(num, u).terms()[-1]
     (poles,), bottom = sympy.Poly(den, u).terms()[-1]
     return zeros - poles, sympy.factor(top / bottom)

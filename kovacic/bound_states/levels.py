@@ -25,6 +25,7 @@ from kovacic.numbers.exact import exact_text, whole
 from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.parametric.assumptions import NOTHING_ASSUMED, Assumptions, check_values
 from kovacic.reading.symbolic import read_expression
+from kovacic.sturm_liouville.problem import stretches_of
 from kovacic.writing.escaped import json_line, latex
 from kovacic.writing.formula import caret
 
@@ -407,16 +408,13 @@ class Spectrum:
             levels.append((state.number, state.energy, function(state.wave), shown))
         levels += [(k, one.value, self.numeric.wave(k), str(one.value)) for k, one in enumerate(self.numeric[:count])]
         drawn = [DrawnLevel(float(value), wave, f"{self.energy}_{k} = {shown}") for k, value, wave, shown in levels]
-        first, last = (float(end.xreplace(at)) for end in self.domain)
         title = self._equation(at)
-        whole = sympy.expand(self.potential.xreplace(at))
-        impulses = []
-        for delta in whole.atoms(sympy.DiracDelta):
-            line = delta.args[0]
-            slope = line.diff(x)
-            impulses.append((float(x - line / slope), float(whole.coeff(delta) / abs(slope))))
-        plain = function(self.potential.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero))
-        return draw_levels(plain, drawn, (first, last), variable=self.variable, title=title, impulses=impulses)
+        V, first, last = (part.xreplace(at) for part in (self.potential, *self.domain))
+        pieces = stretches_of(V, sympy.S.One, x, (first, last))
+        impulses = [(float(piece.low), float(piece.delta)) for piece in pieces if piece.delta != 0]
+        plain = function(V.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero))
+        ends = float(first), float(last)
+        return draw_levels(plain, drawn, ends, variable=self.variable, title=title, impulses=impulses)
 
     def _equation(self, at: Mapping[Any, Any]) -> str:
         """Schroedinger's, and what V is."""

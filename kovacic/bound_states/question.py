@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +11,7 @@ import sympy
 from kovacic.bound_states.coordinates import Original
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.signs import Signs, Uncovered, exceeds
-from kovacic.equation import EULER, PI, Parsed
+from kovacic.equation import Parsed
 from kovacic.errors import InputError
 from kovacic.general_solution.conditions import read_conditions
 from kovacic.numbers.numerals import as_text
@@ -161,10 +161,3 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
 def number_beside(*taken: str) -> Any:
     """The symbol for the number of a level where these names are taken."""
     return sympy.Symbol(free_letter(taken, "nkjm"))
-
-
-def constants_among(expression: Any, names: Iterable[str]) -> dict[str, Any]:
-    """pi and e, which are parameters for the program, and aren't for users."""
-    meanings = {PI: sympy.pi, EULER: sympy.E}
-    free = {*names} - {*names_of(expression)}
-    return {name: value for name, value in meanings.items() if name in free}

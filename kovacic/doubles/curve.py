@@ -13,7 +13,6 @@ which is the amplitude up to a relative error of about S'/(4 q^3), small where S
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -31,6 +30,7 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 SolutionStates = Callable[[Points], Sequence[Any]]  # y and y' in balls at points
 
+_EXACT_TERMS = 24
 #: Samples of a curve: each costs some 50 microseconds and 100 bytes.
 _MOST_SAMPLES = 400_000
 
@@ -44,8 +44,8 @@ class Arc(NamedTuple):
     radius: Floats
 
     def times(self, factor: float) -> Arc:
-        """That of a multiple of the solution."""
-        return Arc(self.x, factor * self.y, factor * self.dy, abs(factor) * self.radius)
+        """That of a positive multiple of the solution."""
+        return Arc(self.x, factor * self.y, factor * self.dy, factor * self.radius)
 
     def drawn(self) -> tuple[Floats, Complexes]:
         """Points so dense that straight lines between them are as good as the cubics."""
@@ -61,18 +61,16 @@ class Arc(NamedTuple):
         return np.append(x.ravel(), self.x[-1]), np.append(inner.ravel(), self.y[-1])
 
 
-@dataclass(frozen=True)
-class Envelope:
-    """A part whose oscillation is too fine to be drawn: |Re y| <= real and |Im y| <= imaginary, nearly reached."""
+class Envelope(NamedTuple):
+    """A part whose oscillation is too fine to be drawn: |Re y| <= Re size and |Im y| <= Im size, nearly reached."""
 
     x: Floats
-    real: Floats
-    imaginary: Floats
+    size: Complexes
     periods: float
 
     def times(self, factor: float) -> Envelope:
-        """That of a multiple of the solution."""
-        return replace(self, real=abs(factor) * self.real, imaginary=abs(factor) * self.imaginary)
+        """That of a positive multiple of the solution."""
+        return self._replace(size=factor * self.size)
 
 
 class CurveCoefficients(NamedTuple):
@@ -92,7 +90,8 @@ def curve_coefficients(chart: PieceChart, points: Points) -> CurveCoefficients:
     rows = []
     for point in points:
         check_time()
-        a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, 2))
+        # Polynomials of at most this many terms, of which two are used, are expanded exactly, which is faster.
+        a, b, c, *_ = ([float(v.mid()) for v in part] + [0.0, 0.0] for part in chart.local(point, 0, _EXACT_TERMS))
         # (b/a)' = b' - b a' at the point, where a = 1.
         rows.append((float(point.re), b[0] / 2, (b[1] - b[0] * a[1]) / 2 + b[0] ** 2 / 4 - c[0]))
     return CurveCoefficients(*np.array(rows).T)
@@ -203,8 +202,8 @@ def _envelope(chart: PieceChart, part: CurveCoefficients, width: Fraction, state
     velocity = samples.dy + here.beta * samples.y
     # There is no envelope where nothing oscillates.
     turned = np.divide(velocity, q, out=np.full_like(velocity, np.nan), where=q != 0)
-    real, imaginary = np.hypot(samples.y.real, turned.real), np.hypot(samples.y.imag, turned.imag)
-    return Envelope(x, real, imaginary, _periods(part.x, part.frequency))
+    size = np.hypot(samples.y.real, turned.real) + 1j * np.hypot(samples.y.imag, turned.imag)
+    return Envelope(x, size, _periods(part.x, part.frequency))
 
 
 def _periods(x: Floats, frequency: Floats) -> float:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from operator import attrgetter
 from typing import Any, Unpack
 
@@ -144,14 +144,23 @@ def lambdify(
     elif not start:
         base = chart.base(number, candidates)
         chart = chart.beginning(number, base)
-    job = _Job(chart, region, number, base, limits)
-    function = job.function(careful=bool(careful))
+    form = None
+    if base is not None and chart.problem is not None and chart.coefficients is None:
+        form = product_form(chart.problem, number, region, base)
+    if form is None and not region.is_real:
+        raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
+
+    def made(careful: bool) -> DoubleFunction:
+        return table_of(chart, region, careful, limits) if form is None else replace(form, careful=careful)
+
+    function = made(bool(careful))
     if not check:
         return function
-    found, complaint = job.measured(function)
+    begin = chart.given if base is None else None
+    found, complaint = _measured(function, chart, begin, limits)
     if careful is None and found is not None and complaint:
-        function = job.function(careful=True, plain=function)
-        found, complaint = job.measured(function)
+        function = made(True)
+        found, complaint = _measured(function, chart, begin, limits)
     if complaint:
         warn_user(complaint, AccuracyWarning)
     return replace(function, measured=found)
@@ -210,42 +219,21 @@ def _chart(solution: object, start: dict[str, Any], params: Params, limits: Limi
     return chart
 
 
-@dataclass(frozen=True)
-class _Job:
-    """The solution that the chart is given; without initial values solution `number`, which is finite at the `base`."""
-
-    chart: PieceChart
-    region: Region
-    number: int
-    base: ExactPoint | None
-    limits: Limits | None
-
-    def function(self, *, careful: bool, plain: DoubleFunction | None = None) -> DoubleFunction:
-        """The solution in double-doubles or plain doubles, `plain` if that is known."""
-        form = plain if isinstance(plain, ProductForm) else None  # the factors are the same
-        problem = self.chart.problem
-        if form is None and self.base is not None and problem is not None and self.chart.coefficients is None:
-            form = product_form(problem, self.number, self.region, self.base)
-        if form is not None:
-            return replace(form, careful=careful)
-        if not self.region.is_real:
-            raise InputError("complex arguments need a solution of case 1", hint="evaluate treats every complex point")
-        return table_of(self.chart, self.region, careful, self.limits)
-
-    def measured(self, function: DoubleFunction) -> tuple[Measured | None, str]:
-        """The error of the function, and a complaint unless it is as small as promised."""
-        unknown = "the error of this function couldn't be measured"
-        try:
-            with bounded_work(_MOST_WORK_FOR_REFERENCE):
-                start = self.chart.given if self.base is None else None
-                found = measure(function, self.chart, start=start, limits=self.limits)
-        except LimitExceeded as limit:
-            return None, f"{unknown}: {limit}"
-        if found.keeps_the_promise:
-            return found, ""
-        if not found.points:
-            return found, f"{unknown}: all samples are beyond the range of doubles"
-        return found, f"measured error of this function in units in the last place: {found}"
+def _measured(
+    function: DoubleFunction, chart: PieceChart, start: dict[str, Any] | None, limits: Limits | None
+) -> tuple[Measured | None, str]:
+    """The error of the function, and a complaint unless it is as small as promised."""
+    unknown = "the error of this function couldn't be measured"
+    try:
+        with bounded_work(_MOST_WORK_FOR_REFERENCE):
+            found = measure(function, chart, start=start, limits=limits)
+    except LimitExceeded as limit:
+        return None, f"{unknown}: {limit}"
+    if found.keeps_the_promise:
+        return found, ""
+    if not found.points:
+        return found, f"{unknown}: all samples are beyond the range of doubles"
+    return found, f"measured error of this function in units in the last place: {found}"
 
 
 def measure(

@@ -26,6 +26,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from math import ldexp
 from operator import itemgetter
 from typing import Any, NamedTuple, Unpack
@@ -57,8 +58,8 @@ from kovacic.limits import Limits, check_time, limited, limits_of
 
 #: Pieces that are treated together, some 10 kilobytes each.
 _PIECES_TOGETHER = 10_000
-#: Points to a piece from which on each piece is treated alone (measured).
-_POINTS_FOR_ONE_PIECE = 1000
+#: Neighbouring points on a piece from which on a plain polynomial with numbers for coefficients is faster (measured).
+_POINTS_FOR_ONE_PIECE = 300
 #: Bits after the binary point where the argument is a single number.
 _FIXED_POINT = 112
 
@@ -172,10 +173,7 @@ class TabulatedFunction:
         """
         if isinstance(x, float) and self.region.low.real <= x <= self.region.high.real:
             return self._single(float(x))
-        points = self.region.points(x)
-        # Many points to a piece are treated piece by piece, for which longer blocks pay.
-        block = 4 * BLOCK if points.size > _POINTS_FOR_ONE_PIECE * self.centres.size else BLOCK // 2
-        return in_blocks(self._values, points, block)
+        return in_blocks(self._values, self.region.points(x), BLOCK // 2)
 
     def __repr__(self) -> str:
         return f"<TabulatedFunction on {self.region}, {self.centres.size} pieces>"
@@ -222,13 +220,10 @@ class TabulatedFunction:
         """At points of an array of one dimension."""
         index = np.searchsorted(self.edges, flat, side="right")
         found = np.zeros((len(self.coefficients), flat.size))  # real and imaginary part
-        runs: list[tuple[Any, Any]] = [(slice(None), index)]
-        if (
-            index.size >= _POINTS_FOR_ONE_PIECE * self.centres.size
-        ):  # piece by piece, so that the coefficients are numbers
-            order = np.argsort(index, kind="stable")
-            ends = np.searchsorted(index[order], np.arange(self.centres.size + 1))
-            runs = [(order[ends[k] : ends[k + 1]], k) for k in np.flatnonzero(np.diff(ends))]
+        runs: list[tuple[slice, Any]] = [(slice(None), index)]
+        ends = [0, *np.flatnonzero(np.diff(index)) + 1, index.size]
+        if not self.careful and index.size > _POINTS_FOR_ONE_PIECE * len(ends):
+            runs = [(slice(first, last), index[first]) for first, last in pairwise(ends)]
         for where, k in runs:
             u = scaled(two_sum(flat[where], -self.centres[k]), -self.exponents[k])
             for row, table in zip(found, self.coefficients[:, :, ::-1, k], strict=True):
@@ -353,17 +348,15 @@ def _cells(chart: PieceChart, region: Region, variant: Variant, limits: Limits |
     while untried:
         if len(untried) + len(done) > most:
             raise LimitExceeded(f"the table needs more than {most} pieces", limit="unknown_degree")
-        check_time()
-        inside = [cell for cell in untried if low <= cell[0] <= high]  # values are inside only
-        halved = [cell for cell in untried if not low <= cell[0] <= high]
-        for first in range(0, len(inside), _PIECES_TOGETHER):
-            some = inside[first : first + _PIECES_TOGETHER]  # of one size
-            # Pieces of one size have the same series, then.
-            tried = some[:1] if chart.is_uniform else some
-            series = _series_on(chart, tried, variant) * (len(some) // len(tried))
-            done += [pair for pair in zip(some, series, strict=True) if pair[1] is not None]
-            halved += [cell for cell, item in zip(some, series, strict=True) if item is None]
-        untried = [half for cell in halved for half in _halves(cell, low, high)]
+        smaller: list[Cell] = []
+        for first in range(0, len(untried), _PIECES_TOGETHER):
+            some = untried[first : first + _PIECES_TOGETHER]
+            for cell, series in zip(some, _series_on(chart, some, variant, (low, high)), strict=True):
+                if series is None:
+                    smaller += _halves(cell, low, high)
+                else:
+                    done.append((cell, series))
+        untried = smaller
     done.sort(key=itemgetter(0))
     return [cell for cell, _ in done], [item for _, item in done]
 
@@ -377,18 +370,20 @@ def _halves(cell: Cell, low: fmpq, high: fmpq) -> list[Cell]:
     return [(m, e) for m in (c - half, c + half) if m + half > low and m - half < high]
 
 
-def _series_on(chart: PieceChart, cells: list[Cell], variant: Variant) -> list[Any]:
+def _series_on(chart: PieceChart, cells: list[Cell], variant: Variant, interval: tuple[fmpq, fmpq]) -> list[Any]:
     """y1, y2, and beside a right-hand side y3, on each of these pieces: high and low halves, terms, series.
 
-    None for a piece on which they don't end or grow too much.  The equation a y'' + b y' + c y = f has the coefficients of u^j
-    at a[j], b[j + 1] and c[j + 2].
+    None for a piece on which they don't end or grow too much, or whose centre is outside of the interval.  The equation
+    a y'' + b y' + c y = f has the coefficients of u^j at a[j], b[j + 1] and c[j + 2].
     """
     terms = variant.terms
-    nothing = [[arb(1)], [], [arb("nan")], []]  # too near to a singular point
+    low, high = interval
+    nothing = [[arb(1)], [], [arb("nan")], []]  # outside, or too near to a singular point
     equations = []
     for c, e in cells:
         check_time()
-        equations.append(chart.local(ExactPoint(c), e, terms) if chart.is_regular(ExactPoint(c), e) else nothing)
+        is_covered = low <= c <= high and chart.is_regular(ExactPoint(c), e)
+        equations.append(chart.local(ExactPoint(c), e, terms) if is_covered else nothing)
     length = max(2, *(len(part) + i for local in equations for i, part in enumerate(local[:3])))
     numbers = np.zeros((2, 3, length, len(cells)))
     source = np.zeros((2, terms, 3 if chart.is_forced else 2, len(cells)))

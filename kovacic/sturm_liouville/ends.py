@@ -275,38 +275,23 @@ class CutEnd:
         return arb(0), arb(self.inwards)
 
 
-@dataclass(frozen=True)
-class ThresholdEnd:
-    """An infinite end where Q - E W >= -1/(4 tau^2) beyond a cut, for all E below the essential spectrum.
-
-    There the decaying solution has Y'/Y <= 1/(2 tau): else its quotient with sqrt(tau) would grow as log(tau).  So the
-    count with equality is an upper bound for all these E.
-    """
-
-    at: Any
-    inwards: int
-    threshold = None
-
-    def position(self, span: Span, digits: int) -> Any:
-        return self.at
-
-    def state(self, E: Any, span: Span, at: Any, *, high: bool) -> StartValues:
-        return arb(1), -self.inwards / (2 * abs(self.at))
-
-
-End = RegularEnd | SingularEnd | CutEnd | ThresholdEnd
+End = RegularEnd | SingularEnd | CutEnd
 
 
 def at_threshold(end: End, threshold: Expr) -> End | None:
-    """The end for E at the bottom of the essential spectrum; None if the bound for it isn't proven."""
+    """The end for E at the bottom of the essential spectrum; None if the bound for it isn't proven.
+
+    It is a point beyond which Q - E W >= -1/(4 tau^2), for all lower E, too.  There the decaying solution has
+    Y'/Y <= 1/(2 tau), or its quotient with sqrt(tau) would grow as log(tau).  So the count with equality is an upper bound.
+    """
     if not isinstance(end, CutEnd) or end.threshold is None or end.threshold != threshold:
         return end
     Q, W = end.of_tau
     excess = sympy.expand((Q - threshold * W) * end.tau**2)
     for k in range(8):
-        tau = (abs(end.origin) + arb(2) ** k).mid()
-        if lower_bound(excess, end.tau, dyadic_midpoint(tau), derivatives=1) >= -arb(1) / 4:
-            return ThresholdEnd(-end.inwards * tau, end.inwards)
+        tau = dyadic_midpoint(abs(end.origin) + arb(2) ** k)
+        if lower_bound(excess, end.tau, tau, derivatives=1) >= -arb(1) / 4:
+            return RegularEnd(-end.inwards * tau, end.inwards / (2 * tau), sympy.S.One, end.inwards)
     return None
 
 

@@ -7,6 +7,7 @@ at its upper end the lower one at least k + 1.  So eigenvalue number k is inside
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import count
@@ -32,8 +33,11 @@ _FREE_RADII = 16
 _SHARES = tuple(arb(n) / 64 for n in (31, 37, 23, 41))
 
 
-class _Near(Exception):
+class _Near(LimitExceeded):
     """A number is so near to an eigenvalue that it isn't known on which side it lies."""
+
+    def __init__(self) -> None:
+        super().__init__("eigenvalues can't be told apart at this precision", limit="digits")
 
 
 class Searcher:
@@ -65,25 +69,19 @@ class Searcher:
 
     def range_with(self, low: Any, high: Any) -> tuple[Count, Count]:
         """N at the ends of a range, the lower end being below all levels.  Raises `LimitExceeded`."""
-        try:
-            below, above = self.at(low), self.at(high)
-            is_free = self.at(low, high=True).count == 0
-        except _Near:
-            is_free = False
-        if not is_free:
+        below, above = self.at(low), self.at(high)
+        if self.at(low, high=True).count != 0:
             raise LimitExceeded("the levels weren't counted", limit="digits")
         with working_precision(64):
             self.unit = ((above.E - below.E) / (1024 * max(above.count, 1))).mid()
         return below, above
 
     def between(self, a: Any, b: Any) -> Count:
-        """N somewhere near the middle of an interval.  Raises `LimitExceeded` if it can't be counted at any of the shares."""
+        """N somewhere near the middle of an interval; raises `_Near` if it can't be counted at any of the shares."""
         for share in _SHARES:
-            try:
+            with suppress(_Near):
                 return self.at(self._rounded(a + (b - a) * share, b - a))
-            except _Near:
-                continue
-        raise LimitExceeded("eigenvalues can't be told apart at this precision", limit="digits")
+        raise _Near
 
     def _rounded(self, E: Any, unit: Any) -> Any:
         """A dyadic number with few digits, within 2^-8 of the unit."""
@@ -122,21 +120,18 @@ class Searcher:
         if (a.count, b.count) != (k, k + 1):
             return None
         free = a.E, b.E
-        for _ in range(8):
-            guess, a, b = self._refined(k, a, b, free)
-            with working_precision(2 * self.bits):
-                radius = self._radius_inside(guess, free, a, b)
-                lower = self._rounded(guess - radius, radius)
-                upper = self._rounded(guess + radius, radius)
-            try:
+        with suppress(_Near):
+            for _ in range(8):
+                guess, a, b = self._refined(k, a, b, free)
+                with working_precision(2 * self.bits):
+                    radius = self._radius_inside(guess, free, a, b)
+                    lower, upper = (self._rounded(guess + sign * radius, radius) for sign in (-1, 1))
                 below, above = self.at(lower), self.at(upper)
                 if below.count == k and above.count == k + 1:
                     # The upper count has to say the same as the lower one.
                     upper_counts = [self.at(E, high=self.counter.is_bracket).count for E in (lower, upper)]
                     return (lower, upper) if upper_counts == [k, k + 1] else None
                 a, b = (a, below) if below.count > k else (above, b)
-            except _Near:
-                return None
         return None
 
     def _refined(self, k: int, a: Count, b: Count, free: tuple[Any, Any]) -> tuple[Any, Count, Count]:
@@ -316,11 +311,9 @@ class Eigenproblem:
         """The count at E, or a little below where E may be a level itself."""
         searcher = self._searcher(E, max(abs(low), abs(E)), 4, 4)
         for shift in range(3):
-            try:
-                return searcher.at(E if shift == 0 else self._short(E - self.scale * shift / 2**20), high=high)
-            except _Near:
-                continue
-        raise LimitExceeded("levels weren't counted", limit="digits")
+            with suppress(_Near):
+                return searcher.at(self._short(E - self.scale * shift / 2**20), high=high)
+        raise _Near
 
     def answer(self, reason: str = "") -> Eigenvalues:
         """The levels found so far, with notes, and the reason why there aren't more."""

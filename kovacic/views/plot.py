@@ -20,7 +20,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from io import BytesIO
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -76,24 +76,24 @@ _RANGE = 4
 
 @dataclass(frozen=True)
 class SampledCurve:
-    """A solution over an interval, in runs that are separated by singular points; each run is arcs and envelopes in order."""
+    """A solution over an interval: arcs and envelopes in order, some of them separated by singular points."""
 
-    runs: tuple[tuple[Arc | Envelope, ...], ...]
+    parts: tuple[Arc | Envelope, ...]
     singular: tuple[complex, ...]
     irregular: tuple[complex, ...]  # those near which solutions are as large as exp(1/distance)
     initial: Start  # with the default values
 
     def times(self, factor: float) -> SampledCurve:
         """The curve of a multiple of the solution."""
-        return replace(self, runs=tuple(tuple(part.times(factor) for part in run) for run in self.runs))
+        return replace(self, parts=tuple(part.times(factor) for part in self.parts))
 
     @property
     def arcs(self) -> list[Arc]:
-        return [part for run in self.runs for part in run if isinstance(part, Arc)]
+        return [part for part in self.parts if isinstance(part, Arc)]
 
     @property
     def envelopes(self) -> list[Envelope]:
-        return [part for run in self.runs for part in run if isinstance(part, Envelope)]
+        return [part for part in self.parts if isinstance(part, Envelope)]
 
     @property
     def largest(self) -> float:
@@ -128,12 +128,12 @@ def sampled_curve(equation: object, start: object, stop: object, points: int, re
     def states(places: Sequence[ExactPoint]) -> Any:
         return chart.states(list(places), digits, accuracy.limits, path="above", method=accuracy.method)
 
-    runs = [tuple(arcs(chart, interval, b - a, points, states)) for interval in intervals]
+    parts = [part for interval in intervals for part in arcs(chart, interval, b - a, points, states)]
     singular, irregular = (
         tuple(complex(z) for z in points if max(abs(z.x), abs(z.y)) < FARTHEST)
         for points in (chart.singular, chart.irregular)
     )
-    return SampledCurve(tuple(runs), singular, irregular, initial)
+    return SampledCurve(tuple(parts), singular, irregular, initial)
 
 
 def _interval_of(start: object, stop: object) -> tuple[Fraction, Fraction]:
@@ -387,8 +387,6 @@ def _solution_curves(
     found: list[list[tuple[str, SampledCurve]]] = [[], []]
     for low, high in intervals:
         at = _middle_of_the_longest([(low, high)])
-        if request.start.x0 is not None and low <= as_point(request.start.x0, "x0").re <= high:
-            at = as_point(request.start.x0, "x0").re
         place = sympy.Rational(at.numerator, at.denominator)
         functions = _real_functions(unknown, [sympy.N(f.subs(x, place), digits) for y in pair for f in (y, y.diff(x))])
         # Other solutions are drawn if these are beyond the range of doubles.
@@ -400,19 +398,18 @@ def _solution_curves(
     labelled = []
     for curves, y in zip(found, pair, strict=True):
         names = list(dict.fromkeys(name for name, _ in curves))
-        curve = replace(curves[0][1], runs=tuple(run for _, part in curves for run in part.runs))
+        curve = replace(curves[0][1], parts=tuple(part for _, curve in curves for part in curve.parts))
         text = of_sympy(y)
         is_shown = len(text.text) <= _LABEL_WIDTH and not names[0].startswith(("Re", "Im")) and _agrees(y, x, curve)
         if len(names) > 1:
-            names = [f"{name} ({_typeset(latex_text(f'x = {part.initial.x0}'))})" for name, part in curves]
+            names = [f"{name} ({_typeset(latex_text(f'x = {there.initial.x0}'))})" for name, there in curves]
         labelled.append((_Label(", ".join(names), text.latex if is_shown else ""), curve))
     sizes = [_DrawnPart(curve, "real", "").sizes(float(b - a))[0] for _, curve in labelled]
-    if max(sizes) <= _MUCH_LARGER * min(sizes) or not min(sizes):
-        return labelled
-    k = math.floor(math.log10(max(sizes) / min(sizes)))
-    larger = sizes.index(max(sizes))
-    label, curve = labelled[larger]
-    labelled[larger] = replace(label, factor=f"10^{{-{k}}}"), curve.times(10.0**-k)
+    if max(sizes) > _MUCH_LARGER * min(sizes) > 0:
+        k = math.floor(math.log10(max(sizes) / min(sizes)))
+        larger = sizes.index(max(sizes))
+        label, curve = labelled[larger]
+        labelled[larger] = replace(label, factor=f"10^{{-{k}}}"), curve.times(10.0**-k)
     return labelled
 
 
@@ -435,31 +432,22 @@ def _evaluable_pair(answer: Answer, x: Any, params: Mapping[str, object]) -> lis
 def _real_functions(unknown: str, values: Sequence[Any]) -> list[tuple[str, Sequence[Any]]]:
     """Two independent functions with their values and slopes: y1 and y2, whose data are given, or parts of them.
 
-    Empty if the data aren't numbers, or are dependent, as for some values of parameters.
+    Empty if the data, which have 30 digits, aren't numbers, or are dependent, as for some values of parameters.
     """
     import sympy
 
     if not all(value.is_number and value.is_finite for value in values):
         return []
-    parts = []
+    parts: list[tuple[str, Sequence[Any]]] = []
     for k, data in ((1, values[:2]), (2, values[2:])):
-        name = _typeset(f"{unknown}_{k}")
-        if all(value.is_real for value in data):
-            parts.append((name, data))
-            continue
-        of_both = [("Re", [*map(sympy.re, data)]), ("Im", [*map(sympy.im, data)])]
+        is_real = all(value.is_real for value in data)
+        own = [("", data)] if is_real else [("Re ", [*map(sympy.re, data)]), ("Im ", [*map(sympy.im, data)])]
         # Anything smaller is the rounding error of a part that is zero.
         least = 1e-25 * sum(map(abs, data))
-        parts += [(f"{part} {name}", own) for part, own in of_both if sum(map(abs, own)) > least]
-    return _independent(parts)
-
-
-def _independent(solutions: Sequence[tuple[str, Sequence[Any]]]) -> list[tuple[str, Sequence[Any]]]:
-    """The first solution and the first one that isn't a multiple of it, by values and slopes to 30 digits; or nothing."""
-    first, *others = solutions
-    y1, dy1 = first[1]
-    for second in others:
-        y2, dy2 = second[1]
+        name = _typeset(f"{unknown}_{k}")
+        parts += [(part + name, numbers) for part, numbers in own if sum(map(abs, numbers)) > least]
+    for first, second in combinations(parts, 2):
+        (y1, dy1), (y2, dy2) = first[1], second[1]
         if abs(y1 * dy2 - y2 * dy1) > 1e-25 * (abs(y1) + abs(dy1)) * (abs(y2) + abs(dy2)):
             return [first, second]
     return []
@@ -515,9 +503,6 @@ class _DrawnPart:
     def values(self, numbers: Any) -> Any:
         return getattr(numbers, self.part)
 
-    def amplitude(self, envelope: Envelope) -> Any:
-        return envelope.real if self.part == "real" else envelope.imaginary
-
     def draw(self, axes: Axes, colour: str) -> None:
         """The arcs, with bands where errors can be seen, and the envelopes."""
         label, largest = self.label, self.curve.largest
@@ -529,7 +514,7 @@ class _DrawnPart:
                 low, high = self.values(arc.y) - arc.radius, self.values(arc.y) + arc.radius
                 axes.fill_between(arc.x, low, high, color=colour, alpha=0.25, linewidth=0, label="error band")
         for envelope in self.curve.envelopes:
-            size = self.amplitude(envelope)
+            size = self.values(envelope.size)
             label = f"{self.label}: envelope of {envelope.periods:,.0f} oscillations"
             axes.fill_between(envelope.x, -size, size, color=colour, alpha=0.35, linewidth=0.8, label=label)
 
@@ -544,7 +529,7 @@ class _DrawnPart:
             rising = self.values(arc.dy) > 0
             pieces.append((arc.x, np.abs(self.values(arc.y)), rising != np.roll(rising, -1)))
             pieces[-1][2][-1] = False  # np.roll compares the last sample with the first one
-        pieces += [(part.x, self.amplitude(part), np.full(len(part.x), True)) for part in self.curve.envelopes]
+        pieces += [(part.x, self.values(part.size), np.full(len(part.x), True)) for part in self.curve.envelopes]
         x, size, turns = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
         away = np.full(len(x), True)
         for z in self.curve.singular:
@@ -559,7 +544,7 @@ class _DrawnPart:
 def _drawn_parts(label: _Label, curve: SampledCurve) -> list[_DrawnPart]:
     """The real part, and the imaginary one if it can be told from zero."""
     is_complex = any(np.any(np.abs(arc.y.imag) > arc.radius) for arc in curve.arcs) or any(
-        np.any(envelope.imaginary > 1e-6 * envelope.real.max()) for envelope in curve.envelopes
+        np.any(envelope.size.imag > 1e-6 * envelope.size.real.max()) for envelope in curve.envelopes
     )
     parts = [("real", "Re"), ("imag", "Im")] if is_complex else [("real", "")]
     return [_DrawnPart(curve, part, label.of_part(name)) for part, name in parts]

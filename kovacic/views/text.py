@@ -72,13 +72,13 @@ def render(
     found, more = verdict_in_words(answer)
     yield f"  {style(found, _ROLES[found])}: {visible(more)}"
     if solutions is not None:
-        yield from _indented(solutions)
+        yield from map("  {}".format, solutions)
     if answer.riccati is not None or answer.series is not None:
-        yield from _indented(omega_lines(answer))
+        yield from map("  {}".format, omega_lines(answer))
     if answer.omega is not None and solutions is None:
         of_what = ", a solution of the normal form" if is_gauged else ""
         yield f"  y = exp(integral of omega d{answer.variable}){of_what}"
-    yield from _indented(_lines_of_exclusions(answer))
+    yield from map("  {}".format, _lines_of_exclusions(answer))
     is_open = answer.status is Status.UNDECIDED
     if parameters_of(answer.S.field) and not is_open and not answer.assumed:
         from kovacic.parametric.restriction import generic_conditions
@@ -89,12 +89,6 @@ def render(
         yield f"  {style('verified', 'good')}: {_how_verified(answer)}"
     elif not is_open:  # an undecided equation may leave nothing to check
         yield f"  {style('not verified', 'bad')}"
-
-
-def _indented(lines: Iterable[str]) -> Iterator[str]:
-    """Each line, indented as part of a section."""
-    for line in lines:
-        yield f"  {line}"
 
 
 def _how_verified(answer: Answer) -> str:
@@ -130,7 +124,7 @@ def solution_lines(answer: Answer) -> Iterator[str]:
         yield from named
     elif named:
         yield "in special functions, verified:"
-        yield from _indented(named)
+        yield from map("  {}".format, named)
     elif answer.status is Status.NONE_EXISTS and not notes:
         yield str(derived.special(answer))
     yield from (f"note: {note}" for note in notes)

@@ -253,6 +253,12 @@ def test_a_level_has_no_norm_if_the_time_ends_with_its_integral() -> None:
     assert late.reason == known.reason
 
 
+def test_a_search_that_runs_out_of_time_is_undecided() -> None:
+    with controlled(looks_in_time=60):
+        late = kovacic.spectrum("1/(x^2 + 1)")
+    assert late.reason.startswith("undecided: the time limit")
+
+
 def test_a_negative_letter_has_an_imaginary_root() -> None:
     """exp(sqrt(a) x), by which no solution decays."""
     found = kovacic.spectrum("a/(1 + x^2) - 3/(1 + x^2)^2", assume={"a": "negative"})

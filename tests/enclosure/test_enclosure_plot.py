@@ -24,10 +24,14 @@ from kovacic.reading.symbolic import read_expression
 
 def test_samples_are_cut_at_singular_points_and_complex_beyond() -> None:
     curve = sample("-1/(4*x^2) - 3", -2, 2, x0=1, points=40)
-    (left,), (right,) = curve.runs
+    left, right = curve.arcs
     assert left.x.max() < 0 < right.x.min()
     assert not np.any(np.abs(right.y.imag) > right.radius)
     assert np.all(np.abs(left.y.imag) > left.radius)
+
+
+def test_without_a_start_the_middle_of_the_longest_interval_has_the_values() -> None:
+    assert sample("1/x", -2, 4, points=10).initial.x0 == 2
 
 
 def test_a_plot_is_a_figure_of_its_own() -> None:
@@ -97,7 +101,7 @@ def difference(random: Random) -> float:
         worst = max(worst, np.abs(np.interp(places, at, drawn.real) - truth(places)).max() / largest)
     for envelope in curve.envelopes:
         places = np.array([random.uniform(envelope.x[0], envelope.x[-1]) for _ in range(500)])
-        share = np.abs(truth(places)) / np.interp(places, envelope.x, envelope.real)
+        share = np.abs(truth(places)) / np.interp(places, envelope.x, envelope.size.real)
         worst = max(worst, share.max() - 1, 0.9 - share.max())
     return float(worst)
 
@@ -244,7 +248,7 @@ def test_a_pole_of_the_gauge_is_a_singular_point() -> None:
     """Bessel's equation of order 1/2 has the normal form y'' = -y: 0 is singular for the equation alone."""
     curve = sample("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", -2, 2, points=20)
     assert curve.singular == (0,)
-    assert len(curve.runs) == 2
+    assert len(curve.parts) == 2
 
 
 def test_a_picture_of_an_equation_with_an_algebraic_constant() -> None:
@@ -408,5 +412,5 @@ def test_the_envelope_of_bessels_functions_is_their_amplitude() -> None:
     (envelope,) = sample(bessel, 1, 2000, x0=1, **values).envelopes
     assert envelope.x[-1] == 2000
     at = np.geomspace(1.5, 2000, 400)
-    assert np.interp(at, envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at)), rel=0.1)
-    assert np.interp(at[100:], envelope.x, envelope.real) == pytest.approx(np.abs(hankel1(0, at[100:])), rel=0.02)
+    assert np.interp(at, envelope.x, envelope.size.real) == pytest.approx(np.abs(hankel1(0, at)), rel=0.1)
+    assert np.interp(at[100:], envelope.x, envelope.size.real) == pytest.approx(np.abs(hankel1(0, at[100:])), rel=0.02)

@@ -64,6 +64,14 @@ def test_of_many_families_some_are_shown_and_the_others_counted() -> None:
     assert "and 20 more." in text
 
 
+def test_polynomials_and_invariants_that_were_found_are_printed() -> None:
+    text = kovacic.solve("x^2 + 3").explain()
+    assert "infinity  d   P\n--------  --  -\n1         1   x\n" in text
+    assert "There is no invariant of degree 2, so at most one omega is rational" in text
+    assert "There is an invariant of degree 2: " in kovacic.solve("1").explain()
+    assert "All solutions are algebraic functions." in kovacic.solve("-3/(16*x^2)").explain()
+
+
 def test_a_no_names_what_excludes_every_case() -> None:
     text = kovacic.solve("x").explain()
     assert text.count("Not case 3") == 3
@@ -82,6 +90,7 @@ def test_a_change_of_variable_is_named_before_its_letter_is_used() -> None:
 def test_an_undecided_answer_says_why() -> None:
     answer = kovacic.solve("x^4 + x^2 + 42*x + 1/4", limits=kovacic.Limits(unknown_degree=5))
     assert "Undecided: " in answer.explain()
+    assert "this is a proof" not in answer.explain()
     assert "undecided" in answer._repr_html_()
     assert "undecided" in answer._repr_latex_()
 

@@ -375,6 +375,8 @@ def test_what_isnt_known_is_said() -> None:
 def test_the_command_prints_the_theorem(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["conditions", "--format", "text", "x^2 + mu"]) == 0
     assert "mu is an odd integer." in capsys.readouterr().out
+    assert run(["conditions", "--assume", "mu=positive", "x^2 + mu"]) == 0
+    assert capsys.readouterr().out.startswith("y'' = (x^2 + mu) y, parameters mu (mu positive)\n")
     assert run(["conditions", "--format", "latex", "--assume", "mu=positive", "x^2 + mu"]) == 0
     assert r"Let $\mu$ be a complex number, $\mu$ a positive number" in capsys.readouterr().out
 
