@@ -230,37 +230,26 @@ def _simulate(sphere: Any, given: Mapping[str, Any]) -> list[AnswerRow]:
     low, high = motion.turning_points
     x, y, z = contact = (motion.contact(time) + 0.0).tolist()
     difference = {name: float(np.abs(error).max()) for name, error in motion.defects(times).items()}
+    errors = f"omega_3 {difference['omega_3']:.2e}, n {difference['n']:.2e}"
     drift = float(np.ptp(motion.energy(times)))
-    rows = [
-        AnswerRow("potential", motion.force.V, "potential", f"V = {motion.force.V}"),
-        AnswerRow("turning_points", (low, high), "turning points", f"u = {low:.12g} and {high:.12g}"),
-        AnswerRow("period", motion.period, "period", f"{motion.period or 0:.15g}"),
-        AnswerRow("time", time),
-        AnswerRow("contact", contact, "contact point", f"({x:.12g}, {y:.12g}, {z:.12g}) at the end"),
-    ]
+    turning = ("turning points", f"u = {low:.12g} and {high:.12g}")
     if low == high:
-        rows[1] = AnswerRow("turning_points", (low, high), "steady motion", f"u = {low:.12g} stays constant")
+        turning = ("steady motion", f"u = {low:.12g} stays constant")
     reaction = motion.reaction(times)
     least = None if reaction is None else float(reaction.min())
-    pulled = None
-    text = ""
-    if reaction is not None and reaction.min() < 0:
-        pulled = float(times[reaction < 0][0])
-        text = (
-            f"from t = {pulled:.6g} on it has to pull at times: a free ball leaves the surface there, this one is held"
-        )
+    pulled = None if reaction is None or reaction.min() >= 0 else float(times[reaction < 0][0])
+    held = "on it has to pull at times: a free ball leaves the surface there, this one is held"
     determined = motion.determined if np.isfinite(motion.determined) else None
     lost = f"digits are lost: it comes as near as {motion.approach:.1g} to an unstable steady motion"
     return [
-        *rows,
+        AnswerRow("potential", motion.force.V, "potential", f"V = {motion.force.V}"),
+        AnswerRow("turning_points", (low, high), *turning),
+        AnswerRow("period", motion.period, "period", f"{motion.period or 0:.15g}"),
+        AnswerRow("time", time),
+        AnswerRow("contact", contact, "contact point", f"({x:.12g}, {y:.12g}, {z:.12g}) at the end"),
         AnswerRow("least_reaction", least, "normal reaction", f"at least {least or 0:.6g} (t <= {time:g})"),
-        AnswerRow("pulled_from", pulled, "", text),
-        AnswerRow(
-            "difference",
-            difference,
-            "difference",
-            f"omega_3 {difference['omega_3']:.2e}, n {difference['n']:.2e}: closed form against the integrated motion",
-        ),
+        AnswerRow("pulled_from", pulled, "", f"from t = {pulled or 0:.6g} {held}"),
+        AnswerRow("difference", difference, "difference", f"{errors}: closed form against the integrated motion"),
         AnswerRow("energy_drift", drift, "energy drift", f"{drift:.2e}"),
         AnswerRow(
             "determined", determined, "asymptotic", f"the digits of this motion last until t = {motion.determined:.6g}"

@@ -308,7 +308,7 @@ VERBOSE = click.option(
 
 
 #: Seconds between two states of a line that shows progress.
-REFRESH = 0.2
+_REFRESH = 0.2
 
 
 @contextmanager
@@ -318,28 +318,28 @@ def waiting(what: str, *, patience: float = 1.0) -> Iterator[None]:
         yield
         return
     over = threading.Event()
-    shown = threading.Thread(target=_show_waiting, args=(what, over, patience), daemon=True)
+
+    def show() -> None:
+        start = time.monotonic()
+        if over.wait(patience):
+            return
+
+        def elapsed(_: object) -> str:
+            return f"{time.monotonic() - start:.0f} s"
+
+        with click.progressbar(repeat(None), label=what, item_show_func=elapsed, width=10, file=sys.stderr) as bar:
+            for _ in bar:
+                if over.wait(_REFRESH):
+                    break
+        click.echo("\x1b[1A\x1b[2K", nl=False, err=True)  # the line of the bar
+
+    shown = threading.Thread(target=show, daemon=True)
     shown.start()
     try:
         yield
     finally:
         over.set()
         shown.join()
-
-
-def _show_waiting(what: str, over: threading.Event, patience: float) -> None:
-    start = time.monotonic()
-    if over.wait(patience):
-        return
-
-    def elapsed(_: object) -> str:
-        return f"{time.monotonic() - start:.0f} s"
-
-    with click.progressbar(repeat(None), label=what, item_show_func=elapsed, width=10, file=sys.stderr) as bar:
-        for _ in bar:
-            if over.wait(REFRESH):
-                break
-    click.echo("\x1b[1A\x1b[2K", nl=False, err=True)  # the line of the bar
 
 
 def answer_each(

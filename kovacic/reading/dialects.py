@@ -25,23 +25,16 @@ from kovacic.reading.names import (
     STEP_LETTERS,
     is_function,
     is_letter,
+    pairs,
     unglued,
 )
 from kovacic.reading.notations import CLOSING, LATEX, NOTATIONS, OPENING, ParserTokens, Tokens, primes_of, rewritten
 from kovacic.reading.parser import DEEPEST
 
-_SIGN_KINDS = {
-    "+": "PLUS",
-    "-": "MINUS",
-    **dict.fromkeys(("*", ".*"), "STAR"),
-    **dict.fromkeys(("/", "./"), "SLASH"),
-    **dict.fromkeys(("^", "**", ".^"), "CIRCUMFLEX"),
-    **dict.fromkeys("([{", "LPAR"),
-    **dict.fromkeys(")]}", "RPAR"),
-    ",": "COMMA",
-    **dict.fromkeys(("=", "=="), "EQUAL"),
-    **dict.fromkeys(("<", ">", "<=", ">="), "COMPARISON"),
-}
+_SIGN_KINDS = pairs(
+    "+ PLUS  - MINUS  * STAR  .* STAR  / SLASH  ./ SLASH  ^ CIRCUMFLEX  ** CIRCUMFLEX  .^ CIRCUMFLEX  , COMMA  = EQUAL"
+    "  == EQUAL  ( LPAR  [ LPAR  { LPAR  ) RPAR  ] RPAR  } RPAR  < COMPARISON  > COMPARISON  <= COMPARISON  >= COMPARISON"
+)
 #: The condition of the last of several pieces.
 _LAST_CASE = ("True", "otherwise")
 _POWERS = ("^", "**")
@@ -49,7 +42,7 @@ _POWERS = ("^", "**")
 #: The kinds of the texts that rules write; all others are numbers and names.
 _WRITTEN_KINDS = {**_SIGN_KINDS, "diff": "HEAD", "True": "OTHERWISE"}
 #: How tokens of a kind are written, however they were.
-_WRITTEN_AS = {"LPAR": "(", "RPAR": ")", "EQUAL": "=", "STAR": "*", "SLASH": "/"}
+_WRITTEN_AS = pairs("LPAR ( RPAR ) EQUAL = STAR * SLASH /")
 
 #: Commands, and letters between dollar signs, that mean nothing.
 LAYOUT = frozenset(
@@ -61,21 +54,16 @@ LAYOUT = frozenset(
 #: Commands about a name that is set upright, or in another style.
 _STYLES = frozenset(r"\operatorname \mathrm \mathop \mathit \mathbf \text \textrm \textit".split())  # noqa: SIM905
 FRACTIONS = frozenset({"\\frac", "\\dfrac", "\\tfrac", "\\cfrac"})
-#: Tokens that commands stand for.
+#: Commands that are read later.
+_MACROS = FRACTIONS | {"\\sqrt", "\\dot", "\\ddot", "\\dddot"}
+#: The texts that other commands stand for.
 _COMMANDS = {
-    **dict.fromkeys(("\\cdot", "\\times"), ("SIGN", "*")),
-    "\\div": ("SIGN", "/"),
-    "\\infty": ("WORD", "oo"),
-    "\\prime": ("PRIMES", PRIME),
-    "\\imath": ("WORD", "I"),
-    "\\partial": ("WORD", "d"),
-    **dict.fromkeys(("\\vert", "\\lvert", "\\rvert", "\\mid"), ("SIGN", "|")),
-    **dict.fromkeys(("\\{", "\\lbrace", "\\lbrack"), ("SIGN", "(")),
-    **dict.fromkeys(("\\}", "\\rbrace", "\\rbrack"), ("SIGN", ")")),
-    **{f"\\{name}": ("WORD", name) for name in (*GREEK, *SPECIAL_LETTERS, *BARE)},
-    **{f"\\var{name}": ("WORD", name) for name in GREEK},
-    # Read by `_Translation`.
-    **{name: ("MACRO", name) for name in (*FRACTIONS, "\\sqrt", "\\dot", "\\ddot", "\\dddot")},
+    **pairs(
+        r"\cdot *  \times *  \div /  \infty oo  \prime '  \imath I  \partial d  \vert |  \lvert |  \rvert |  \mid |"
+    ),
+    **pairs(r"\{ (  \lbrace (  \lbrack (  \} )  \rbrace )  \rbrack )"),
+    **{f"\\{name}": name for name in (*GREEK, *SPECIAL_LETTERS, *BARE)},
+    **{f"\\var{name}": name for name in GREEK},
 }
 #: Words that are one name in LaTeX without a backslash, too; mu and nu may be products.
 _LATEX_WORDS = sorted(
@@ -101,7 +89,9 @@ class _Latex:
     def ordinary(self) -> Tokens:
         while self.k < len(self.scan):
             token = self.scan[self.k]
-            kind, text = _COMMANDS.get(token.text, token[:2])
+            kind, text = token[:2]
+            if text in _COMMANDS:
+                kind, text = scanned(_COMMANDS[text])[0][:2]
             self.k += 1
             if token.kind == "WORD":
                 self.letters(token)
@@ -113,7 +103,7 @@ class _Latex:
                 # Of \frac12 each digit is an argument.
                 first = token.start
                 self.found += [Token("NUMBER", digit, first + k, first + k + 1) for k, digit in enumerate(token.text)]
-            elif kind == "COMMAND" and text not in LAYOUT:
+            elif kind == "COMMAND" and text not in LAYOUT and text not in _MACROS:
                 shown = text if text.isprintable() else repr(text)
                 raise self.error(f"{shown} isn't a command that is read here", token)
             elif text not in LAYOUT:
@@ -575,7 +565,6 @@ _TOKEN_RULES: dict[str, tuple[_TokenRule, ...]] = {
     "PRIMES": (_Translation.primes,),
     "TEXT": (_Translation.prose,),
     "COMMAND": (),
-    "MACRO": (),
     **dict.fromkeys(FUNCTION_NAMES, (_Translation.function, _Translation.word)),
     **dict.fromkeys(FRACTIONS, (_Translation.derivative, _Translation.fraction)),
     **dict.fromkeys(("\\sqrt", "√", "∛"), (_Translation.root,)),

@@ -20,24 +20,32 @@ NUMBER_NAMES = {
 
 _FUNCTION_LIST = """
     exp log sin cos tan cot sec csc asin acos atan acot sinh cosh tanh coth sech csch asinh acosh atanh erf sqrt cbrt
-    Heaviside DiracDelta floor
+    Heaviside DiracDelta floor Abs sign
+"""
+#: Other names, each with SymPy's; gamma(...) may be a product.
+_OTHER_NAMES = """
+    ln log  arcsin asin  arccos acos  arctan atan  arccot acot  arsinh asinh  arcosh acosh  artanh atanh  arcsinh asinh
+    arccosh acosh  arctanh atanh  heaviside Heaviside  dirac DiracDelta  abs Abs  sgn sign  Gamma gamma
 """
 
+
+def pairs(words: str) -> dict[str, str]:
+    """Maps the first word to the second, the third to the fourth, ..."""
+    separate = words.split()
+    return dict(zip(separate[::2], separate[1::2], strict=True))
+
+
 #: The functions of one argument that expressions and right-hand sides may contain, with SymPy's names.
-FUNCTION_NAMES = {name: name for name in _FUNCTION_LIST.split()}
+FUNCTION_NAMES = {name: name for name in _FUNCTION_LIST.split()} | pairs(_OTHER_NAMES)
 RECIPROCALS = {"sech": "cosh", "csch": "sinh"}
-FUNCTION_NAMES |= {"ln": "log", "arcsin": "asin", "arccos": "acos", "arctan": "atan", "heaviside": "Heaviside"}
-FUNCTION_NAMES |= {f"ar{name}": f"a{name}" for name in ("sinh", "cosh", "tanh")}
-FUNCTION_NAMES |= {f"arc{name}": f"a{name}" for name in ("sinh", "cosh", "tanh", "cot")}
-FUNCTION_NAMES |= {"dirac": "DiracDelta", "abs": "Abs", "Abs": "Abs", "sgn": "sign", "sign": "sign"}
-FUNCTION_NAMES["Gamma"] = "gamma"  # gamma(...) may be a product
 
 #: The functions of several arguments, by the names of SymPy's.
-SEVERAL_ARGUMENTS = {name: name for name in ("Max", "Min", "SingularityFunction", "Piecewise")}
-SEVERAL_ARGUMENTS |= {"max": "Max", "min": "Min"}
+SEVERAL_ARGUMENTS = pairs("Max Max Min Min max Max min Min Piecewise Piecewise SingularityFunction SingularityFunction")
 #: Spellings to suggest for names of other systems, some of which may be products: tg is tan, or t g.
-INSTEAD = {"tg": "tan(...)", "ctg": "cot(...)", "cotg": "cot(...)", "arctg": "atan(...)", "arcctg": "acot(...)"}
-INSTEAD |= {"sen": "sin(...)", "cosec": "csc(...)", "sh": "sinh(...)", "ch": "cosh(...)", "th": "tanh(...)"}
+INSTEAD = pairs(
+    "tg tan(...)  ctg cot(...)  cotg cot(...)  arctg atan(...)  arcctg acot(...)  sen sin(...)  cosec csc(...)"
+    "  sh sinh(...)  ch cosh(...)  th tanh(...)"
+)
 INSTEAD |= dict.fromkeys(("EI", "IE"), "one letter for a stiffness, such as B")
 INSTEAD |= dict.fromkeys(("log2", "log10", "lg", "log_2", "log_10"), "log(x)/log(b) for the logarithm to the base b")
 #: Powers as calls: of C, SymPy and Mathematica, of spreadsheets.

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from kovacic.compatibility import cached_property
 from kovacic.errors import InputError
 from kovacic.reading.lexer import DERIVATIVES, DOTS, PRIME, Token, scanned
-from kovacic.reading.names import BARE, FUNCTION_NAMES, FUNCTIONS, GREEK, LETTER, SPECIAL_LETTERS
+from kovacic.reading.names import BARE, FUNCTION_NAMES, FUNCTIONS, GREEK, LETTER, SPECIAL_LETTERS, pairs
 
 Match = re.Match[str]
 OPENING = frozenset("([{")
@@ -243,16 +243,8 @@ _CASE_WORDS = re.compile(rf"\\(?:text|textrm|mbox|mathrm) \{{ +(if|for|when|{'|'
 
 #: Our names of functions of Mathematica, Maple and SymPy.
 _SYNONYMS = {
-    "ArcSin": "asin",
-    "ArcCos": "acos",
-    "ArcTan": "atan",
-    "UnitStep": "heaviside",
-    "HeavisideTheta": "heaviside",
-    "DiracDelta": "dirac",
-    "Dirac": "dirac",
-    "Sign": "sign",
-    "Max": "max",
-    "Min": "min",
+    **pairs("ArcSin asin ArcCos acos ArcTan atan UnitStep heaviside HeavisideTheta heaviside Dirac dirac"),
+    **pairs("DiracDelta dirac Sign sign Max max Min min"),
     **{name.capitalize(): name for name in (*BARE - {"ln"}, "sqrt", "erf", "abs", "floor")},
 }
 

@@ -50,8 +50,7 @@ def read_input(
         parsed = _with_note(_meaning(S, source, exponentials=exponentials))
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))
-        lost = tuple(note for note in source.notes if note not in parsed.notices)
-        return replace(parsed, notices=(*lost, *parsed.notices), guesses=source.guesses) if source.notes else parsed
+        return replace(parsed, notices=(*source.notes, *parsed.notices), guesses=source.guesses)
     if isinstance(S, Equation):
         if variable not in (None, S.variable):
             raise InputError(f"the variable of this equation is {S.variable}, not {variable}")

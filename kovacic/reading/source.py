@@ -108,7 +108,7 @@ def read_with_numbers(source: Source) -> Parsed:
 
 
 def read_source(source: Source) -> Parsed:
-    """The meaning of a source: a rational function, or an equation.
+    """The meaning of a source: a rational function, or an equation; without the notes of the source.
 
     Raises `NotRational`, `NotLinear` and `ParseError`, with the position in a text, and `LimitExceeded`.
     """
@@ -119,12 +119,12 @@ def read_source(source: Source) -> Parsed:
             reader = RationalReader({x: VARIABLE}, x, Arithmetic(source.limits), constants)
             reader.declared = source.declared
             S = lowered(over(reader.arithmetic.rational(source.walk(reader)), constants.field))
-            return Parsed(S, x, (*source.notes, *reader.notices(), *constants.notices()))
+            return Parsed(S, x, (*reader.notices(), *constants.notices()))
         from kovacic.reading.differential import EquationReader
 
         reader = EquationReader(source, constants)
         equation = reader.equation_of(source.walk(reader), source.text)
-        notes = (*source.notes, *reader.notices(), *constants.notices(reader.letters))
+        notes = (*reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
     return read_with_constants(read, Constants(source.limits))

@@ -23,7 +23,7 @@ Expr = Any  # SymPy publishes no types
 
 #: Functions that all of SymPy's printers write correctly.
 _WRITTEN_BY_SYMPY = "exp log Abs sin cos tan cot sec csc asin acos atan sinh cosh tanh coth asinh acosh atanh"
-#: SymPy's names with the others' names, or with a pattern for the printed arguments; E/1 is E with one argument.
+#: SymPy's names with the others' names; E/1 is E with one argument.
 _MATHEMATICA = """
     besselj BesselJ, bessely BesselY, besseli BesselI, besselk BesselK, jn SphericalBesselJ, yn SphericalBesselY,
     airyai AiryAi, airybi AiryBi, airyaiprime AiryAiPrime, airybiprime AiryBiPrime, erf Erf, erfc Erfc, erfi Erfi,
@@ -46,83 +46,60 @@ _JULIA = """
     Si sinint, Ci cosint, gamma gamma, uppergamma gamma, sign sign, elliptic_k ellipk, elliptic_e/1 ellipe,
     elliptic_f Elliptic.F, elliptic_e/2 Elliptic.E, elliptic_pi/3 Elliptic.Pi, hyper pFq
 """
-_PATTERNS: dict[str, dict[str, str]] = {
-    "mathematica": {
-        "lowergamma": "Gamma[{0}, 0, {1}]",
-        "Heaviside": "UnitStep[{0}]",
-        "Integral/2": "Integrate[{0}, {1}]",
-        "Integral/4": "Integrate[{0}, {{{1}, {2}, {3}}}]",
-        "RootSum": "RootSum[Function[{2}, {0}], Function[{2}, {1}]]",
-    },
-    "maple": {
-        "lowergamma": "(GAMMA({0}) - GAMMA({0}, {1}))",
-        "Heaviside": "Heaviside({0})",
-        "airyaiprime": "AiryAi(1, {0})",
-        "airybiprime": "AiryBi(1, {0})",
-        "elliptic_k": "EllipticK(sqrt({0}))",
-        "elliptic_f": "EllipticF(sin({0}), sqrt({1}))",
-        "elliptic_e/1": "EllipticE(sqrt({0}))",
-        "elliptic_e/2": "EllipticE(sin({0}), sqrt({1}))",
-        "elliptic_pi/2": "EllipticPi({0}, sqrt({1}))",
-        "elliptic_pi/3": "EllipticPi(sin({1}), {0}, sqrt({2}))",
-        "Integral/2": "Int({0}, {1})",
-        "Integral/4": "Int({0}, {1} = {2} .. {3})",
-        "RootSum": "sum({1}, {2} = RootOf({0}, {2}))",
-    },
-    "julia": {"lowergamma": "(gamma({0}) - gamma({0}, {1}))"},
-}
 
 
 @dataclass(frozen=True)
 class _Language:
-    """The name, SymPy's printer, brackets around arguments and lists, and the names that have a meaning in the language."""
+    """The name, SymPy's printer, brackets around arguments and lists, the names of functions, and those that mean something.
+
+    `patterns` are for the printed arguments; E/1 is E with one argument.
+    """
 
     name: str
     printer: Any
-    calls: tuple[str, str]
-    lists: tuple[str, str]
-    functions: str
-    patterns: Mapping[str, str]
-    taken: str
+    calls: str
+    lists: str
     assignment: str
     comment: str
+    taken: str
+    functions: str
+    patterns: Mapping[str, str]
 
 
 CODE_LANGUAGES = {
     "mathematica": _Language(
-        "Mathematica",
-        MCodePrinter,
-        ("[", "]"),
-        ("{", "}"),
-        _MATHEMATICA,
-        _PATTERNS["mathematica"],
-        "C D E I K N O Pi",
-        "{} = {};",
-        "(* {} *)",
+        "Mathematica", MCodePrinter, "[]", "{}", "{} = {};", "(* {} *)", "C D E I K N O Pi", _MATHEMATICA,
+        {
+            "lowergamma": "Gamma[{0}, 0, {1}]",
+            "Heaviside": "UnitStep[{0}]",
+            "Integral/2": "Integrate[{0}, {1}]",
+            "Integral/4": "Integrate[{0}, {{{1}, {2}, {3}}}]",
+            "RootSum": "RootSum[Function[{2}, {0}], Function[{2}, {1}]]",
+        },
     ),
     "maple": _Language(
-        "Maple",
-        MapleCodePrinter,
-        ("(", ")"),
-        ("[", "]"),
-        _MAPLE,
-        _PATTERNS["maple"],
-        "D I O Pi gamma Zeta Psi",
-        "{} := {};",
-        "# {}",
+        "Maple", MapleCodePrinter, "()", "[]", "{} := {};", "# {}", "D I O Pi gamma Zeta Psi", _MAPLE,
+        {
+            "lowergamma": "(GAMMA({0}) - GAMMA({0}, {1}))",
+            "Heaviside": "Heaviside({0})",
+            "airyaiprime": "AiryAi(1, {0})",
+            "airybiprime": "AiryBi(1, {0})",
+            "elliptic_k": "EllipticK(sqrt({0}))",
+            "elliptic_f": "EllipticF(sin({0}), sqrt({1}))",
+            "elliptic_e/1": "EllipticE(sqrt({0}))",
+            "elliptic_e/2": "EllipticE(sin({0}), sqrt({1}))",
+            "elliptic_pi/2": "EllipticPi({0}, sqrt({1}))",
+            "elliptic_pi/3": "EllipticPi(sin({1}), {0}, sqrt({2}))",
+            "Integral/2": "Int({0}, {1})",
+            "Integral/4": "Int({0}, {1} = {2} .. {3})",
+            "RootSum": "sum({1}, {2} = RootOf({0}, {2}))",
+        },
     ),
     "julia": _Language(
-        "Julia",
-        JuliaCodePrinter,
-        ("(", ")"),
-        ("(", ")"),
-        _JULIA,
-        _PATTERNS["julia"],
-        "im pi e gamma",
-        "{}(x) = {}",
-        "# {}",
+        "Julia", JuliaCodePrinter, "()", "()", "{}(x) = {}", "# {}", "im pi e gamma", _JULIA,
+        {"lowergamma": "(gamma({0}) - gamma({0}, {1}))"},
     ),
-}
+}  # fmt: skip
 
 
 def as_code(expression: Expr, language: str) -> str:

@@ -26,21 +26,21 @@ _GREEK_LETTERS = (
     "phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 )
 # Signs between functions, which are replaced first.
-_RELATION_SIGNS = [
-    (re.compile(r" in ([ZN])\b"), r" \\in \\mathbb{\1}"),
-    (re.compile(r"\+- *"), r"\\pm "),
-    (re.compile("!="), r"\\ne"),
-    (re.compile(">="), r"\\ge"),
-    (re.compile("<="), r"\\le"),
-    (re.compile(r"\.\.\."), r"\\ldots"),
-]
+_RELATION_SIGNS = {
+    r" in ([ZN])\b": r" \\in \\mathbb{\1}",
+    r"\+- *": r"\\pm ",
+    "!=": r"\\ne",
+    ">=": r"\\ge",
+    "<=": r"\\le",
+    r"\.\.\.": r"\\ldots",
+}
 # Replacements for LaTeX, in this order.
-_REPLACEMENTS: list[tuple[re.Pattern[str], Any]] = [
-    (re.compile(r"(?:\*\*|\^)(\d+)"), r"^{\1}"),
-    (re.compile(r"(?<![\\\w])[^\W\d]\w*"), lambda match: symbol(match[0])),
-    (re.compile(r"\*(?=\d)"), r" \\cdot "),
-    (re.compile(r"\*"), " "),
-]
+_REPLACEMENTS: dict[str, Any] = {
+    r"(?:\*\*|\^)(\d+)": r"^{\1}",
+    r"(?<![\\\w])[^\W\d]\w*": lambda match: symbol(match[0]),
+    r"\*(?=\d)": r" \\cdot ",
+    r"\*": " ",
+}
 #: Those with a command in LaTeX, and the last two without one.
 _PRINTED_FUNCTIONS = tuple(
     "sin cos tan cot sec csc sinh cosh tanh coth exp log ln arcsin arccos arctan sech csch".split()  # noqa: SIM905
@@ -279,8 +279,8 @@ def latex_text(text: str) -> str:
     if modulus:
         congruence = latex_text(form).replace("=", r"\equiv")
         return rf"{congruence} \pmod{{{latex_text(modulus)}}}"
-    for pattern, replacement in _RELATION_SIGNS:
-        text = pattern.sub(replacement, text)
+    for pattern, replacement in _RELATION_SIGNS.items():
+        text = re.sub(pattern, replacement, text)
     writer = _LatexWriter()
     found = 1
     while found:
@@ -319,8 +319,8 @@ class _LatexWriter:
         found = 1
         while found:  # a/b*c/d is a fraction with one above it
             text, found = _QUOTIENT.subn(self.fraction, text)
-        for pattern, replacement in _REPLACEMENTS:
-            text = pattern.sub(replacement, text)
+        for pattern, replacement in _REPLACEMENTS.items():
+            text = re.sub(pattern, replacement, text)
         return _READY.sub(lambda match: self.parts[ord(match[0]) - _PART].product, text)
 
     def parenthesised(self, match: re.Match[str]) -> str:
