@@ -159,10 +159,10 @@ def _printer(language: _Language) -> Any:
                 printed = [*map(self._print, arguments)]
                 return own.format(*printed) if "{0}" in own else own + ", ".join(printed).join(language.calls)
             if isinstance(expr, sympy.Tuple):
-                before, after = language.lists
+                elements = ", ".join(map(self._print, expr))
                 if language.name == "Julia" and expr.args:  # a tuple, in which a single element needs the comma
-                    after = ",)"
-                return before + ", ".join(map(self._print, expr)) + after
+                    elements += ","
+                return elements.join(language.lists)
             is_foreign = isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
             if isinstance(expr, sympy.Function):
                 is_foreign = kind not in _WRITTEN_BY_SYMPY.split()
