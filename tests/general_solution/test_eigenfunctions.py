@@ -92,7 +92,7 @@ def test_the_same_condition_at_both_ends_keeps_the_exponential_solution():
     assert "tan" not in notes
 
 
-@pytest.mark.parametrize("conditions", ["y(0)=0, y(1)=0", "y(-1)=0, y(1)=0"])
+@pytest.mark.parametrize("conditions", [pytest.param("y(0)=0, y(1)=0", marks=pytest.mark.long), "y(-1)=0, y(1)=0"])
 def test_there_is_no_family_on_an_interval_with_a_singular_point(conditions):
     with pytest.raises((NotImplementedError, kovacic.InputError)):
         kovacic.dsolve("x^2*y''+x*y'+lambda*y=0", ics=conditions)

@@ -1006,10 +1006,15 @@ def test_the_spectrum_of_a_homogeneous_potential_is_written_alike_for_all_names(
     assert f"{name} = n*(5*n - 3)/2 for an integer n: case 1" in fifth.text()
 
 
+@parametrize(("b", "options"), [("1", {"max_degree": 0}), ("b", {})], ordinary=(0,))
+def test_determinants_of_simple_poles_know_the_value_of_a_constant(b: str, options: dict[str, int]) -> None:
+    """y = (x^2 + b) exp(x/(2 sqrt 2)) for a = 2, c = 1/8 and all b."""
+    (first, *_) = kovacic.conditions(f"(a + sqrt(2)*x)/(x^2 + {b}) + c", var="x", **options).regions[-1].determinants
+    assert first == f"Delta_0 = a - 2 where c = 1/8; a^2 + 2{'*b' if b == 'b' else ''} where c = 1/2"
+
+
 def test_determinants_know_the_value_of_a_constant() -> None:
-    """y = (x^2 + b) exp(x/(2 sqrt 2)) for a = 2, c = 1/8 and all b; y = exp(-x^4/4 - sqrt(2) x^2/4)."""
-    simple_poles = kovacic.conditions("(a + sqrt(2)*x)/(x^2 + b) + c", var="x")
-    assert simple_poles.regions[-1].determinants[0] == "Delta_0 = a - 2 where c = 1/8; a^2 + 2*b where c = 1/2"
+    """y = exp(-x^4/4 - sqrt(2) x^2/4)."""
     sextic = kovacic.conditions("x^6 + sqrt(2)*x^4 + a*x^2 + b", var="x").regions[-1]
     assert sextic.determinants[0] == "Delta_0 = 2*b + sqrt(2) where a = -5/2; 2*b - sqrt(2) where a = 7/2"
     assert str(sextic.solution(0)[0]).startswith("y = exp(-x^4/4 - sqrt(2)*x^2/4) where a = -5/2")
