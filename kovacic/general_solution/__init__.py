@@ -1,10 +1,10 @@
 """General solutions as SymPy gives them: an equation goes in, `Eq(y(x), ...)` with constants comes out, or all w(x).
 
-`dsolve.dsolve` is the entry, and the module to read first: its head lists the steps.  `basis` is the pair of solutions that
-knows its Wronskian, `answer` the object that everything shown is read from.  `particular` finds a solution with the
-right-hand side by the cheapest way: `undetermined` coefficients, or `variation` of parameters with the integrals of
-`antiderivatives`, those of `waves` among them.  Right-hand sides that jump are sums of `steps`.  `riccati` has the
-solutions of Riccati equations, `sympy_hint` the entry among SymPy's own methods.
+`dsolve.dsolve` is the entry, and the module to read first: its head lists the steps.  `conditions` reads all initial and
+boundary values.  `basis` is the pair of solutions that knows its Wronskian, `answer` the object that everything shown is read
+from.  `particular` finds a solution with the right-hand side by the cheapest way: `undetermined` coefficients, or variation of
+parameters with the integrals of `antiderivatives`, those of `waves` among them.  Right-hand sides that jump are sums of
+`steps`.  `riccati` has the solutions of Riccati equations, `sympy_hint` the entry among SymPy's own methods.
 """
 
 from kovacic.general_solution.answer import (

@@ -104,6 +104,12 @@ class Basis:
         """The c of W = c w(x), up to a number."""
         return self.wronskian.as_independent(self.x, as_Add=False)[0]
 
+    @property
+    def scale(self) -> Expr:
+        """The `constant` in the user's symbols if it is elementary, else 1."""
+        scale = self.own(self.constant)
+        return S.One if scale.is_zero or scale.has(Function, sympy.Integral, self.x) else scale
+
     @cached_property
     def dependent(self) -> tuple[Expr, ...]:
         """Expressions in the letters: where one is zero, so is the constant of the Wronskian."""

@@ -116,7 +116,7 @@ def _limit_candidates(e: Expr, x: Expr, place: Approach, t: Expr) -> Iterator[Ex
     if not place.is_infinite:
         yield _quotient_of_analytic_functions(e, x, place.point)
     leading = _with_leading_terms(e.xreplace({x: place.in_terms_of(t)}), t)
-    yield _term_by_term(leading, t)
+    yield _classified(_term_by_term(leading, t))
     yield _classified(_by_sympy(leading, t))
 
 
@@ -153,11 +153,13 @@ def _by_sympy(e: Expr, t: Expr) -> Any:
 
 
 def _term_by_term(e: Expr, t: Expr) -> Any:
-    """`oo` for a sum with unbounded terms that don't cancel; None for others."""
+    """The limit of a sum from those of its terms; None if it isn't known, as where unbounded terms cancel."""
     limits = {term: _by_sympy(term, t) for term in Add.make_args(sympy.expand_mul(e))}
     if None in limits.values():
         return None
     unbounded = [term for term, found in limits.items() if _classified(found) == oo]
+    if not unbounded:
+        return Add(*limits.values())
     ratios = [_classified(_by_sympy(sympy.powsimp(term / unbounded[0]), t)) for term in unbounded]
     is_comparable = {None, oo, OSCILLATING}.isdisjoint(ratios)
     return oo if is_comparable and expand(Add(*ratios)) != 0 else None

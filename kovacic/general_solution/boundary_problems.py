@@ -16,7 +16,7 @@ from sympy import Symbol, Tuple, oo, simplify
 from kovacic.closed_form.atoms import is_seen_negative
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
-from kovacic.general_solution.conditions import Condition, apart, periodicity, read_conditions
+from kovacic.general_solution.conditions import Condition, apart, periodicity, read_conditions, symbols_of
 from kovacic.general_solution.question import Question, free_constants
 from kovacic.limits import DEFAULT_LIMITS, Limits, limited
 from kovacic.numbers.exact import exact_text, whole
@@ -265,7 +265,7 @@ def eigenfunctions(question: Question) -> tuple[Expr, list[str]] | None:
         return None
     B, c = simplify(b / a), simplify(c / a)
     c1 = simplify(c.diff(parameter))
-    letters = Tuple(B, c1).free_symbols.union(*(condition.free_symbols for condition in question.conditions))
+    letters = Tuple(B, c1).free_symbols | symbols_of(question.conditions)
     if c1 == 0 or parameter in letters:
         return None
     c0 = simplify(c - parameter * c1)

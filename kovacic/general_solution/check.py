@@ -34,7 +34,7 @@ from kovacic.closed_form.cuts import cut_of, cuts_of
 from kovacic.closed_form.jets import ANTIDERIVATIVES, MATHIEU, jet
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
-from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.conditions import Condition, symbols_of
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.steps import JUMPING, between, break_points, in_steps, on_piece, split_at_jumps
 from kovacic.general_solution.zero import NOT_EVALUATED, ball_of, generic_samples, known_jet, opposite, residual_at
@@ -103,7 +103,7 @@ class SolutionClaim:
             raise self.failed("has no value")
         # Numbers for symbols that are integers or not positive; other symbols have values by their names.  They are to give
         # the answer a value: it is one for generic letters, and a small integer needn't be generic.
-        known = set().union(*(part.free_symbols for part in (self.y, *self.coefficients, *self.conditions)))
+        known = set().union(*(part.free_symbols for part in (self.y, *self.coefficients))) | symbols_of(self.conditions)
         special = {s for s in known if s.is_integer or s.is_nonpositive}
         tried = generic_samples(special, natural)
         numbers = next((numbers for numbers in tried if is_finite(self.y.xreplace(numbers))), {})

@@ -50,11 +50,6 @@ class Condition:
     def points(self) -> tuple[Expr, ...]:
         return tuple(term.point for term in self.terms)
 
-    @property
-    def free_symbols(self) -> set[Expr]:
-        """The symbols in its points, coefficients and value."""
-        return Tuple(*self.terms, self.value or 0).free_symbols  # type: ignore[no-any-return]
-
     def in_symbols(self, others: Mapping[Expr, Expr]) -> Condition:
         """The condition in other symbols."""
         terms = (ConditionTerm(a.xreplace(others), order, c.xreplace(others)) for a, order, c in self.terms)
@@ -77,6 +72,11 @@ class Condition:
         for term in self.terms:
             parts[term.order] += term.coefficient
         return parts[0], parts[1]
+
+
+def symbols_of(conditions: Iterable[Condition]) -> set[Expr]:
+    """The symbols in points, coefficients and values."""
+    return set().union(*(Tuple(*condition.terms, condition.value or 0).free_symbols for condition in conditions))
 
 
 def conditions_at(values: Mapping[Expr, Expr], conditions: Iterable[Condition]) -> dict[Expr, Any]:

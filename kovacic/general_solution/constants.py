@@ -239,10 +239,7 @@ def constants_of(
             of_limit, zeros = _rows_of_limit(limit, solutions)
             rows += of_limit
             exceptional |= zeros
-    scale = question.own(basis.constant)
-    if scale.is_zero or scale.has(sympy.Function, sympy.Integral, question.x):  # it isn't elementary
-        scale = S.One
-    found = determine(rows, names, _wronskian(question, basis, rows, limits), scale)
+    found = determine(rows, names, _wronskian(question, basis, rows, limits), basis.scale)
     found.particular.extend(ParameterCase((symbol,), CaseOutcome.OPEN) for symbol in sorted(exceptional, key=str))
     return found._replace(rows=tuple(rows))
 

@@ -4,7 +4,7 @@ Riccati equations are made linear, and back, in `riccati`.
 
 The steps, each in a module of this package:
 
-1. `question`: the equation, the unknown function, the conditions, and the user's own symbols;
+1. `question`: the equation, the unknown function, its `conditions`, and the user's own symbols;
 2. `homogeneous`: a `basis` y1, y2 of the solutions for f = 0, by Kovacic's algorithm or in special functions;
 3. `particular`: one solution y0;
 4. `determined`: linear conditions on y are linear equations for C1 and C2, solved by rank in `constants`;
@@ -39,7 +39,7 @@ from kovacic.general_solution.answer import (
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.boundary_problems import eigenfunctions
 from kovacic.general_solution.check import check_answer
-from kovacic.general_solution.conditions import apart
+from kovacic.general_solution.conditions import apart, symbols_of
 from kovacic.general_solution.constants import CaseOutcome, Determined, ParameterCase, constants_of
 from kovacic.general_solution.first_order import FirstOrderEquation, read_first_order, solved_linear
 from kovacic.general_solution.homogeneous import find_basis, no_solution
@@ -445,8 +445,8 @@ class _Family:
     def names(self) -> tuple[Expr, Expr]:
         """C1 and C2, or the next unused names."""
         given = (self.question.function, *map(sympy.Symbol, self.question.symbols))
-        of_conditions = (symbol for condition in self.question.conditions for symbol in condition.free_symbols)
-        c1, c2 = free_constants(2, self.basis.y1, self.basis.y2, self.particular, *given, *of_conditions)
+        given += (self.basis.y1, self.basis.y2, self.particular, *symbols_of(self.question.conditions))
+        c1, c2 = free_constants(2, *given)
         return c1, c2
 
     def member(self, constants: tuple[Expr, Expr]) -> Expr:

@@ -14,7 +14,7 @@ from sympy import Integer, Symbol
 from kovacic.equation import parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import FirstOrderAnswer, SecondOrderAnswer
-from kovacic.general_solution.conditions import Condition
+from kovacic.general_solution.conditions import Condition, symbols_of
 from kovacic.general_solution.dsolve import answer_to
 from kovacic.general_solution.particular import right_hand_side
 from kovacic.general_solution.riccati import linear_equation
@@ -161,7 +161,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
         source = f"By case {solution.case} of Kovacic's algorithm"
     yield say(f"{source}:")
     letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
-    taken = letters.union(*(condition.free_symbols for condition in question.conditions))
+    taken = letters | symbols_of(question.conditions)
     u, v = (free_name(taken, f"y{k}", f"u{k}") for k in (1, 2))
     f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
@@ -198,7 +198,7 @@ def _steps_of_first_order(answer: FirstOrderAnswer) -> Iterator[Block]:
     equation = answer.equation
     w, x = equation.function, equation.x
     name = str(w.func)
-    taken = {name, *equation.letters, *(s for condition in equation.conditions for s in condition.free_symbols)}
+    taken = {name, *equation.letters, *symbols_of(equation.conditions)}
     p, h, c = (free_name(taken, *names) for names in (("p", "f", "g", "R"), ("h", "H"), ("c", "v", "z")))
     square = equation.r * Symbol(name) ** equation.power
     yield Heading("The equation")

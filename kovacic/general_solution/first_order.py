@@ -86,7 +86,8 @@ class OfFirstOrder:
     @property
     def letters(self) -> dict[str, Expr]:
         """The symbols in the coefficients, by name."""
-        return {symbol.name: symbol for symbol in sympy.Tuple(*self.entries).free_symbols}
+        symbols = sympy.Tuple(*self.entries).free_symbols
+        return {symbol.name: symbol for symbol in sorted(symbols, key=str)}
 
 
 class FirstOrderEquation(OfFirstOrder):

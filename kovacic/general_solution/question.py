@@ -20,7 +20,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from kovacic.closed_form.atoms import Atoms
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
-from kovacic.general_solution.conditions import Condition, apart, conditions_at, read_conditions
+from kovacic.general_solution.conditions import Condition, apart, conditions_at, read_conditions, symbols_of
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.general_solution.substitution import exact_decimals
@@ -184,7 +184,7 @@ def known_letters(
         raise InputError(what, hint='assume={"x": "positive"}')
     own = dict(letters)
     for condition in conditions:
-        for symbol in sorted(condition.free_symbols, key=str):
+        for symbol in sorted(symbols_of([condition]), key=str):
             own.setdefault(symbol.name, symbol)
     own.pop(x.name, None)
     return with_assumptions(others, own) | ({x: Symbol(x.name, positive=True)} if of_x else {})

@@ -23,6 +23,7 @@ from sympy.solvers.solveset import NonlinearError
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.answer import vanishes_with
+from kovacic.general_solution.conditions import symbols_of
 from kovacic.general_solution.constants import CaseOutcome, Row, determine
 from kovacic.general_solution.first_order import (
     LINEAR,
@@ -153,9 +154,10 @@ def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
     system = given.swapped if is_swapped else given
     without_values = replace(system, conditions=())
     t, b, values = system.x, system.entries[1], system.values
-    taken = Tuple(t, *system.entries).free_symbols.union(*(c.free_symbols for c in system.conditions))
+    taken = Tuple(t, *system.entries).free_symbols | symbols_of(system.conditions)
     zeros: list[Expr] = []
     exceptions: list[Expr] = []
+    scale = sympy.S.One
     is_open = bool(system.conditions)  # the values are put in afterwards
     if b == 0:
         is_open = len(system.swapped.alone(sympy.S.Zero).conditions) > 1  # two values of y determine x
@@ -171,9 +173,10 @@ def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
         x, _ = with_letters_for_constants(answer, taken)
         pair, notices = Tuple(x, system.second(x)), answer.notices
         exceptions = [e.xreplace(answer.own) for e in answer.pair_exceptions]
+        scale = answer.basis.scale
     constants = sorted(pair.free_symbols - taken, key=str)
     if is_open:
-        pair, zeros = _with_constants(system, pair, constants)
+        pair, zeros = _with_constants(system, pair, constants, scale)
     left = [constant for constant in constants if pair.has(constant)]
     if is_open:  # a constant that is left stands before solutions that may vanish with the Wronskian
         functions_left = [sympy.Matrix(pair).diff(constant) for constant in left]
@@ -220,14 +223,19 @@ def _through_values(system: LinearSystem, values: tuple[Expr, Expr, Expr], solve
     return Tuple(solution, system.second(solution)), answer.notices
 
 
-def _with_constants(system: LinearSystem, pair: Expr, constants: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
-    """The pair with the constants that the values determine, and expressions that are zero for exceptional parameters."""
+def _with_constants(
+    system: LinearSystem, pair: Expr, constants: Sequence[Expr], scale: Expr
+) -> tuple[Expr, list[Expr]]:
+    """The pair with the constants that the values determine, and expressions that are zero for exceptional parameters.
+
+    Where `scale` is zero the solutions are dependent, which isn't a case of the values.
+    """
     c1, c2 = constants
     rows = []
     for condition in system.conditions:
         there = condition.of(pair[system.functions.index(condition.function)], system.x)
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
-    generic, others, _ = determine(rows, (c1, c2))
+    generic, others, _ = determine(rows, (c1, c2), scale=scale)
     if generic.outcome is CaseOutcome.NONE:
         raise InputError("there is no solution with these values: the conditions contradict one another")
     values = dict(zip(constants, generic.values, strict=True))

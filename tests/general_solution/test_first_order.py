@@ -257,6 +257,8 @@ def test_letters_in_denominators_are_named() -> None:
         ("x' = -k*x, y' = k*x - m*y, x(0) = 1, y(0) = 0", ["k = m, where x(t) = exp(-m*t), y(t) = m*t*exp(-m*t)"]),
         ("x' = k*x, y' = x + c*y, x(0) = 0, y(0) = 1", []),  # x = 0, and what y is divided by isn't there
         ("x' = y, y' = -k^2*x, x(0) = 0, y(0) = 1", ["k = 0, where x(t) = t, y(t) = 1"]),
+        # where k = 0 cos(k t) and sin(k t) are dependent, and the answer holds all the same
+        ("x' = y, y' = -k^2*x, x(0) = 1, y(1) = 0", ["cos(k) = 0: substitute such values for the solutions there"]),
         ("y' = a*y + b*exp(c*x) + x", ["a = 0 or a - c = 0: substitute such values for the solutions there"]),
     ],
 )
