@@ -21,7 +21,7 @@ import flint
 import frame
 
 import kovacic
-from kovacic.enclosure import classical, closed_form, frobenius, journey, transport, way
+from kovacic.enclosure import classical, closed_form, frobenius, journey, rational, way
 from kovacic.enclosure.monodromy import connection_matrix, monodromy
 from kovacic.enclosure.states import evaluate_states
 
@@ -224,7 +224,7 @@ def the_ball() -> list[dict[str, Any]]:
 
 
 COUNTED = {
-    "Taylor expansions": (transport, "expand"),
+    "Taylor expansions": (rational, "expand"),
     "matrices of one": (way, "transition"),
     "values in one": (way.Local, "state"),
     "Frobenius series": (frobenius, "_expand"),

@@ -25,7 +25,6 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import combinations
 
 from flint import acb, acb_mat, arb, fmpq, fmpz
@@ -183,91 +182,55 @@ def _possible_angles(m: acb_mat, traces: dict[Fraction, acb]) -> list[Fraction]:
     return [angle for angle, value in traces.items() if m.trace().overlaps(value)]
 
 
-@dataclass(frozen=True)
-class _Possible:
-    """The conditions (1) for matrices of the monodromy group: True if the balls leave them open, and False is a proof."""
-
-    words: list[acb_mat]
-
-    @cached_property
-    def commutators(self) -> list[acb_mat]:
-        """The commutators of all pairs."""
-        return _commutators(self.words)
-
-    @cached_property
-    def commuting(self) -> bool:
-        """True if the group may be diagonal."""
-        return all(map(_may_be_identity, self.commutators))
-
-    @cached_property
-    def reducible(self) -> bool:
-        """True if there may be a common eigenvector."""
-        return all(c.trace().overlaps(_TWO) for c in self.commutators)
-
-    def monomial(self) -> bool:
-        """True if the group may lie in N(T)."""
-        return all(map(_may_be_identity, _commutators([word**2 for word in self.words])))
-
-    def torsion(self) -> bool:
-        """True if all eigenvalues may be roots of unity."""
-        orders = range(1, MOST_TRIALS + 1)
-        return all(any(_may_have_order(word, k) for k in orders) for word in self.words)
-
-    def unipotent(self, n: int) -> bool:
-        """True if all n-th powers may be 1."""
-        return n >= _LARGEST_POWER or all(_may_be_identity(word**n) for word in self.words)
-
-    def primitive(self) -> bool:
-        """True if one of the three finite groups is possible."""
-        longer = [*self.words, *self.commutators, *_products(self.words)]
-        return any(all(_may_be_in(m, kind) for m in longer) for kind in _PRIMITIVE)
-
-
 def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
-    """An infinite group (or a large one): the conditions (1)."""
-    possible = _Possible(words)
-    contradiction = _contradiction(possible, group, fuchsian)
-    if contradiction is not None:
-        return Agreement(False, f"{contradiction} {group}")
+    """An infinite group (or a large one): the conditions (1), which a ball leaves open or disproves."""
+    commutators = _commutators(words)
+    may_commute = all(map(_may_be_identity, commutators))
+    may_be_reducible = all(c.trace().overlaps(_TWO) for c in commutators)
+    may_be_monomial = all(map(_may_be_identity, _commutators([word**2 for word in words])))
+    conditions = [
+        (_TRIANGULAR, may_be_reducible, "the monodromy matrices have no common eigenvector, unlike"),
+        (_DIAGONAL, may_commute, "the monodromy matrices don't commute, unlike"),
+        (_IMPRIMITIVE, may_be_monomial, "the squares of the monodromy matrices don't commute, unlike those of"),
+    ]
+    if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
+        are_roots = all(_may_have_order(word, group.n) for word in words)
+        is_lower = fuchsian and are_roots and _is_proper_order(words, group.n)
+        conditions += [
+            (_WITH_ROOTS_OF_UNITY, are_roots, "an eigenvalue of a monodromy matrix isn't a root of unity of"),
+            (
+                _WITH_ROOTS_OF_UNITY,
+                not is_lower,
+                "the eigenvalues of the monodromy matrices have a lower order than those of",
+            ),
+        ]
+    for kinds, may_hold, contradiction in conditions:
+        if group.kind in kinds and not may_hold:
+            return Agreement(False, f"{contradiction} {group}")
     if group.kind is GroupKind.SL2:  # only a group in no proper algebraic subgroup is dense
-        if possible.reducible or possible.monomial() or possible.primitive():
+        longer = [*words, *commutators, *_products(words)]
+        may_be_primitive = any(all(_may_be_in(m, kind) for m in longer) for kind in _PRIMITIVE)
+        if may_be_reducible or may_be_monomial or may_be_primitive:
             return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
         return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
-    if _may_be_smaller(possible, group):
+    # The eigenvalues of a smaller group are roots of unity, or it is abelian or reducible; of G_a extended by mu_n a smaller n
+    # was excluded, and finite subgroups are cyclic.  Of other groups nothing is tried.
+    may_be_smaller = {
+        GroupKind.ADDITIVE: may_commute,
+        GroupKind.MULTIPLICATIVE: False,
+        GroupKind.BOREL: may_commute,
+        GroupKind.INFINITE_DIHEDRAL: may_be_reducible,
+    }.get(group.kind, True)
+    if group.kind is GroupKind.ADDITIVE:
+        n = group.n or 1
+        may_be_smaller &= n >= _LARGEST_POWER or all(_may_be_identity(word**n) for word in words)
+    elif not may_be_smaller:
+        may_be_smaller = all(any(_may_have_order(word, k + 1) for k in range(MOST_TRIALS)) for word in words)
+    if may_be_smaller:
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
-
-
-def _contradiction(possible: _Possible, group: Group, fuchsian: bool) -> str | None:
-    """The reason why the group isn't this one, as a sentence that ends with its name; None if nothing disproves it."""
-    if group.kind in _TRIANGULAR and not possible.reducible:
-        return "the monodromy matrices have no common eigenvector, unlike"
-    if group.kind in _DIAGONAL and not possible.commuting:
-        return "the monodromy matrices don't commute, unlike"
-    if group.kind in _IMPRIMITIVE and not possible.monomial():
-        return "the squares of the monodromy matrices don't commute, unlike those of"
-    if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
-        if not all(_may_have_order(word, group.n) for word in possible.words):
-            return "an eigenvalue of a monodromy matrix isn't a root of unity of"
-        if fuchsian and _is_proper_order(possible.words, group.n):
-            return "the eigenvalues of the monodromy matrices have a lower order than those of"
-    return None
-
-
-def _may_be_smaller(possible: _Possible, group: Group) -> bool:
-    """True if the closure of the monodromy may be a proper subgroup of this infinite group, in which it lies."""
-    # G_a extended by mu_n: a smaller n was excluded, and finite subgroups are cyclic.
-    if group.kind is GroupKind.ADDITIVE:
-        return possible.commuting and possible.unipotent(group.n or 1)
-    # The eigenvalues of a smaller group are roots of unity, or it is abelian or reducible.  Of other groups nothing is tried.
-    in_smaller = {
-        GroupKind.MULTIPLICATIVE: False,
-        GroupKind.BOREL: possible.commuting,
-        GroupKind.INFINITE_DIHEDRAL: possible.reducible,
-    }
-    return in_smaller.get(group.kind, True) or possible.torsion()
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:

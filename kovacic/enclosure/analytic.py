@@ -100,7 +100,6 @@ class AnalyticWay(Way):
 
     functions: CoefficientField
     problem: NumericProblem | None = None
-    prec: int = 64
 
     @property
     def steepest(self) -> float:
@@ -110,9 +109,6 @@ class AnalyticWay(Way):
     @property
     def is_exact(self) -> bool:
         return self.functions.coefficients.is_exact
-
-    def at(self, prec: int) -> AnalyticWay:
-        return replace(self, prec=prec)
 
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         if self.problem is not None:

@@ -335,17 +335,10 @@ def _off(z: acb) -> bool:
 
 
 def _avoids(form: StandardForm, a: ExactPoint, b: ExactPoint, needed: tuple[bool, bool]) -> None:
-    """Raise NotServed unless the segment is proven not to meet a slit; that of z concerns the second solution only.
-
-    On the real axis z and 1 - z keep their signs, since their numerators and denominators have no zeros (`_followed`).
-    """
+    """Raise NotServed unless the segment is proven not to meet a slit; that of z concerns the second solution only."""
     # z and 1 - z are these numerators over d; each has its slit.
     for c, top, matters in zip(form.slits, (form.n, form.d - form.n), (needed[0], True), strict=True):
         if c is None or not matters:
             continue
-        if a.is_real() and b.is_real():
-            if top(a.x) / form.d(a.x) <= 0:
-                raise NotServed
-        else:
-            with working_precision(_LEG_BITS):
-                _check_slit(acb_poly(top) * c, acb_poly(form.d), a, b)
+        with working_precision(_LEG_BITS):
+            _check_slit(acb_poly(top) * c, acb_poly(form.d), a, b)

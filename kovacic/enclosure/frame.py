@@ -110,10 +110,8 @@ def isolated_zeros(coefficients: tuple[int, ...], prec: int) -> Zeros:
 
 
 def offsets(system: System, centre: ExactPoint) -> Zeros:
-    """The singular points seen from `centre` (point - centre), to 40 relative bits at least, with their multiplicities.
-
-    Raises InputError if the centre is one of them.
-    """
+    """The singular points seen from `centre`, none of them, (point - centre) to 40 relative bits at least, with their
+    multiplicities."""
     # The digits of the centre may cancel in the differences.
     prec = 64 + min(centre.height_bits(), 1 << 14)
     while True:
@@ -122,15 +120,7 @@ def offsets(system: System, centre: ExactPoint) -> Zeros:
             found = tuple((root - here, k) for root, k in system.roots("den", prec))
         if all(d.rel_accuracy_bits() >= _DISTANCE_BITS for d, _ in found):
             return found
-        if system.is_singular(centre):
-            raise InputError(f"the point {centre} is a singular point of the equation")
         prec *= 2
-
-
-def distance_lower(system: System, centre: ExactPoint) -> arb | None:
-    """A proven lower bound, positive and exact, of the distance to the nearest singular point; None if there is none."""
-    with working_precision(64):
-        return min((d.abs_lower() for d, _ in offsets(system, centre)), default=None)
 
 
 def is_apart(system: System, *points: ExactPoint) -> bool:
@@ -288,18 +278,22 @@ class Frame:
         return u
 
 
-def make_frame(system: System, centre: ExactPoint, e: int) -> Frame | None:
-    """The frame of the equation at `centre` with scale 2^e; raises InputError at a singular point.
-
-    None if a singular point can't be excluded from the disc, or if the solutions grow too much there.
-    """
+def make_frame(
+    system: System, centre: ExactPoint, e: int, share: float = 1.0, growth: float = math.inf
+) -> Frame | None:
+    """The frame of the equation at `centre` with scale 2^e; None if this may be more than `share` of the distance to a
+    singular point, or if the solutions grow by more than 2^growth, or far too much for bounds."""
+    if system.is_singular(centre):
+        return None
     with working_precision(_FRAME_BITS):
         poles = [((abs(d) * arb((1, -e))).lower(), k) for d, k in offsets(system, centre)]
-        if any(not size > 1 for size, _ in poles):
+        if not all(size > 1 and size * share >= 1 for size, _ in poles):
             return None
         p, q = shift(system, centre, ExactPoint(power_of_two(e)))
         bound = _defect_bound(p, q[0][0], poles)
-        return None if bound is None else Frame(centre, e, p, q, bound)
+        if bound is None or bound.log2_growth > growth:
+            return None
+        return Frame(centre, e, p, q, bound)
 
 
 def _defect_bound(p: GaussianParts, q_0: int, poles: list[tuple[arb, int]]) -> DefectBound | None:
@@ -341,18 +335,6 @@ def _over_a_ring(sigma: arb, delta: arb) -> Affine:
         rise = delta * (t.sinh() / t)
         push = delta * delta * (2 * ((t / 2).sinh() / t) ** 2)
     return (cosh, rise, sigma * rise, cosh), (push, rise)
-
-
-def fitting(system: System, centre: ExactPoint, e: int, share: float, growth: float) -> Frame | None:
-    """The frame at `centre` with scale 2^e if this is at most `share` of the distance to a singular point and the solutions
-    grow by at most 2^growth; else None."""
-    if system.is_singular(centre):
-        return None
-    near = distance_lower(system, centre)
-    if near is not None and not near * share >= arb((1, e)):
-        return None
-    frame = make_frame(system, centre, e)
-    return None if frame is None or frame.bound.log2_growth > growth else frame
 
 
 def largest_exponent(system: System, point: ExactPoint) -> int | None:

@@ -157,8 +157,6 @@ def _sigma(t: Any, field: Field) -> Poly:
 
 def _in_t(t: Any, function: RatFunc) -> Any:
     """A rational function of t, as an expression; 1 - cos(u)^2 in its denominator becomes sin(u)^2, sharper in balls."""
-    if not function:
-        return sympy.Integer(0)
     atoms = Atoms(sympy.Dummy("t"))
     if t.func is sympy.tan:
         return _in_sines(t.args[0], function, atoms)
@@ -177,8 +175,6 @@ def _wave_quotient(t: Any, function: RatFunc, factor: Any) -> Any:
     Where the quotient is real for real u, D is its own reversed conjugate up to a number of size 1, so that there is a constant
     w for which w t^-h D is real, and then w t^-h N is.
     """
-    if not function:
-        return sympy.Integer(0)
     atoms = Atoms(sympy.Dummy("t"))
     u = sympy.expand(-sympy.I * t.args[0])
     below = list(atoms.coefficients(function.den))

@@ -154,14 +154,16 @@ class CoefficientEvaluator(BallEvaluator):
         x = self.values[symbol]
         pairs = list(zip(map(self, rest[::2]), map(int, rest[1::2]), strict=True))
         near = next((pair for pair in pairs if _is_close(x, pair[0])), None)
-        value = self(function) if near is None else self._near(function, symbol, x, *near)
+        value = None if near is None else self._near(function, symbol, x, *near)
+        if value is None:
+            near, value = None, self(function)
         for zero, k in pairs:
             if (zero, k) != near:
                 value = value / (x - zero) ** k
         return value
 
     def _near(self, function: Any, symbol: Any, x: Any, zero: acb, k: int) -> Any:
-        """The function over (x - zero)^k, by its series there."""
+        """The function over (x - zero)^k, by its series there; None unless it is proven to be analytic around."""
         # A ball counts as a series of one term.
         centre, scale, length = (x[0] - zero, x[1], ctx.cap) if isinstance(x, acb_series) else (x - zero, acb(0), 1)
         # Around the zero, so far that |u| <= 2 is within; the function is bounded on twice that.
@@ -176,7 +178,7 @@ class CoefficientEvaluator(BallEvaluator):
             if size.is_finite():
                 break
         else:
-            return self(function) / (x - zero) ** k
+            return None
         terms = ctx.prec + 8
         with series_length(terms + k):
             beside = CoefficientEvaluator({**self.values, symbol: acb_series([zero, acb(1)])}, variable=symbol)
@@ -411,7 +413,7 @@ def _solution(jets: Jets, start: int | None) -> Local:
     with working_precision(jets.precision):
         # a_0 and a_1: 1, 0 or 0, 1; with the right-hand side (start is None) 0, 0.
         first = [number(start == k) for k in (0, 1)]
-        values = _Recurrence((A, B, C), right, first, jets.bits).values
+        values = _coefficients((A, B, C), right, first, jets.bits)
         scale = arb((1, jets.e if start == 1 else 0))  # the slope 1 in x
         poly = type(F)(values) * scale
     with working_precision(_BITS_OF_BOUNDS):
@@ -433,53 +435,49 @@ def _absolute_values(values: list[Any]) -> arb_poly:
     return arb_poly([abs(value).upper() for value in values])
 
 
-class _Recurrence:
-    """The coefficients a_k, `values`, by halving: what the first half gives to the second is a product of polynomials.
+def _coefficients(parts: Sequence[Any], right: Any, values: list[Any], bits: int) -> list[Any]:
+    """The coefficients a_k, from a_0 and a_1 on, by halving: what the first half gives to the second is a product of
+    polynomials.
 
     With the coefficients d_k = (k+1) a_(k+1) of Y' and e_k = (k+1) d_(k+1) of Y'', and A_0 = 0 in place of 1,
     s_k = sum_j (A_(k-j) e_j + B_(k-j) d_j + C_(k-j) a_j) - F_k is -e_k.
     """
+    kind = type(right)
+    slopes = values[1:]
+    bends: list[Any] = []
+    # A goes with Y'', B with Y' and C with Y.
+    series = bends, slopes, values
+    terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
+    zero = values[0] * 0
+    sums = defaultdict(lambda: zero, {k: -value for k, value in enumerate(right.coeffs())})
+    least = max(_SMALL_AT_THE_END + 2, len(sums), *(len(part) for part, _ in terms), 0)
 
-    def __init__(self, parts: Sequence[Any], right: Any, first: list[Any], bits: int) -> None:
-        self.kind = type(right)
-        self.values = first
-        self.slopes = first[1:]
-        self.bends: list[Any] = []
-        # A goes with Y'', B with Y' and C with Y.
-        series = self.bends, self.slopes, self.values
-        self.terms = [(part.coeffs(), known) for part, known in zip(parts, series, strict=True) if part.degree() >= 0]
-        zero = first[0] * 0
-        self.sums = defaultdict(lambda: zero, {k: -value for k, value in enumerate(right.coeffs())})
-        self.least = max(_SMALL_AT_THE_END + 2, len(self.sums), *(len(part) for part, _ in self.terms), 0)
-        self.bits = bits
-        self.ended = False
-        self._continue(0, _ONE_BY_ONE << 40)  # no series is so long
-
-    def _continue(self, low: int, high: int) -> None:
+    def is_ended(low: int, high: int) -> bool:
         """The steps k = low, ..., high - 1, or up to the end, where what comes from j < low is in the sums."""
         if high - low > _ONE_BY_ONE:
             middle = (low + high) // 2
-            self._continue(low, middle)
-            if self.ended:
-                return
+            if is_ended(low, middle):
+                return True
             # What comes from j = low, ..., middle - 1 to the sums k = middle, ..., high - 1.
-            product = self.kind([])
-            for part, series in self.terms:
-                product += self.kind(part[: high - low]) * self.kind(series[low:middle])
+            product = kind([])
+            for part, known in terms:
+                product += kind(part[: high - low]) * kind(known[low:middle])
             for k, value in enumerate(product.coeffs()[middle - low : high - low], start=middle):
-                self.sums[k] += value
-            self._continue(middle, high)
-            return
+                sums[k] += value
+            return is_ended(middle, high)
         for k in range(low, high):
-            total = self.sums[k]
-            for part, series in self.terms:
-                for j in range(max(low, k + 1 - len(part)), min(k + 1, len(series))):
-                    total += part[k - j] * series[j]
+            total = sums[k]
+            for part, known in terms:
+                for j in range(max(low, k + 1 - len(part)), min(k + 1, len(known))):
+                    total += part[k - j] * known[j]
             # e_k = -s_k, d_(k+1) = e_k/(k + 1), a_(k+2) = d_(k+1)/(k + 2).
-            self.bends.append(-total)
-            self.slopes.append(-total / (k + 1))
-            self.values.append(self.slopes[-1] / (k + 2))
+            bends.append(-total)
+            slopes.append(-total / (k + 1))
+            values.append(slopes[-1] / (k + 2))
         check_time()
-        check_terms(len(self.values), self.bits)
-        last = self.slopes[-_SMALL_AT_THE_END:]  # where these are small, the others are, too
-        self.ended = len(self.values) > self.least and all(abs(value) < arb((1, -self.bits)) for value in last)
+        check_terms(len(values), bits)
+        last = slopes[-_SMALL_AT_THE_END:]  # where these are small, the others are, too
+        return len(values) > least and all(abs(value) < arb((1, -bits)) for value in last)
+
+    is_ended(0, _ONE_BY_ONE << 40)  # no series is so long
+    return values

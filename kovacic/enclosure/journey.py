@@ -5,8 +5,8 @@ A state is carried along each line by a `Way`.  A journey from a regular singula
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from kovacic.enclosure.classical import Closed
@@ -71,10 +71,10 @@ class Journey:
 
     def _begin(self, closed: Closed | None, prec: int) -> Traveller:
         """At the end of the polygon."""
-        way = self.way.at(prec)
+        way = replace(self.way, prec=prec)
         if closed is not None:
             assert self.problem is not None
-            way = ClosedWay(self.problem, prec, closed)
+            way = ClosedWay(self.problem, closed, prec=prec)
         place = self.place
         # A start at a singular point of the user's equation is refused at once.
         if isinstance(place, ExactPoint):
@@ -96,7 +96,7 @@ class Journey:
         found: States = {}
         for waiting in sides(traveller.here, list(dict.fromkeys(stops))):
             one = traveller
-            for detour in _joined_detours(_detours(one.here, waiting[-1], singular), waiting, singular):
+            for detour in _detours(one.here, waiting, singular):
                 # Before the place, in the direction of the way: they are reached before the detour begins.
                 nearer = [stop for stop in waiting if detour.sign * (stop.x - detour.place) < 0]
                 found |= one.fan(nearer)
@@ -135,8 +135,12 @@ class _Detour:
         return all(p.is_real() or abs(2 * p.x - ends) + 2 * abs(p.y) > least for p in singular)
 
 
-def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) -> Iterator[_Detour]:
-    """Those on the way to `last`, in order; from infinity beyond all singular points."""
+def _detours(here: ExactPoint | Singular, stops: Points, singular: Points) -> list[_Detour]:
+    """Those on the way to the last stop, in order; from infinity beyond all singular points.
+
+    Those without stops between their places become one, if no other singular point is between them and that.
+    """
+    last = stops[-1]
     if isinstance(here, Singular):
         # From infinity: beyond all singular points and the last stop.
         far = 2 * max(abs(p.x) for p in (last, *singular)) + 1
@@ -150,6 +154,7 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) ->
     sign = 1 if last.x > here.x else -1
     distance = sign * (last.x - here.x)
     places = [p.x for p in singular if p.is_real() and 0 < sign * (p.x - here.x) < distance]
+    found: list[_Detour] = []
     for place in sorted(places, reverse=sign < 0):
         point = ExactPoint(place)
         # Half the distance to another singular point, or the whole one to the start, whichever is less.
@@ -159,19 +164,12 @@ def _detours(here: ExactPoint | Singular, last: ExactPoint, singular: Points) ->
         radius = power_of_two((binary_exponent(square) - 1) // 2)
         # A short number, at most a sixteenth of the radius to the left of the place.
         centre = (place / radius * 16).floor() * radius / 16
-        yield _Detour(place, centre - sign * radius, centre + sign * radius, sign)
-
-
-def _joined_detours(detours: Iterator[_Detour], stops: Points, singular: Points) -> list[_Detour]:
-    """Those without stops between their places become one, if no other singular point is between them and that."""
-    found: list[_Detour] = []
-    for detour in detours:
-        # The first one is joined to none.
-        last = found[-1] if found else detour
-        both = _Detour(detour.place, last.begin, detour.end, detour.sign)
-        near, far = sorted((last.place, detour.place))
-        if last is not detour and both.is_free(singular) and not any(near < stop.x < far for stop in stops):
-            found[-1] = both
-        else:
-            found.append(detour)
+        detour = _Detour(place, centre - sign * radius, centre + sign * radius, sign)
+        if found:
+            both = replace(detour, begin=found[-1].begin)
+            near, far = sorted((found[-1].place, place))
+            if both.is_free(singular) and not any(near < stop.x < far for stop in stops):
+                found.pop()
+                detour = both
+        found.append(detour)
     return found

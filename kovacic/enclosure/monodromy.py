@@ -217,7 +217,7 @@ def _connection(problem: NumericProblem, way: _Polygon, prec: int) -> Matrix:
     """The matrix to about `prec` bits."""
     first, middle, end = way
     # Both coordinates are 1, so that both columns are computed.
-    traveller = Traveller(way_for(problem).at(prec), first, (acb(1), acb(1)))
+    traveller = Traveller(replace(way_for(problem), prec=prec), first, (acb(1), acb(1)))
     for vertex in middle:
         traveller = traveller.moved(vertex)
     if not isinstance(end, Singular):

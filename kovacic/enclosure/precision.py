@@ -9,7 +9,8 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import repeat
+from itertools import count, repeat
+from typing import Literal
 
 from flint import acb, arb
 
@@ -56,6 +57,10 @@ class PointValue:
         return finite_ball(self.state[1], self.route)
 
 
+Values = tuple[PointValue, ...]
+_METHODS: dict[bool, Literal["taylor", "closed form"]] = {True: "taylor", False: "closed form"}
+
+
 def start_bits(digits: float) -> int:
     """The working precision of the first run."""
     return int(digits * _BITS_PER_DIGIT) + 24
@@ -72,78 +77,67 @@ def raise_precision(
     most = int(max(ceiling, limits.digits * _BITS_PER_DIGIT))
     # At most half the ceiling, so that a second run can be at twice the precision.
     bits = max(start_bits(digits), min(begin, ceiling // 2))
-    previous: _Run | None = None  # the last one with finite balls
-    number = 0
-    while True:
-        number += 1
-        route = Route(digits, "taylor" if closed is None else "closed form", bits, number)
+    previous: Values | None = None  # those of the last run with finite balls
+    for number in count(1):
         try:
-            run = _Run.made(journey, targets, closed, route)
+            values = _run(journey, targets, closed, Route(digits, _METHODS[closed is None], bits, number))
         except LimitExceeded as limit:
             if previous is None:
                 raise
-            return previous.explained(str(limit))
-        if run.finite and run.missing == 0:
-            return run.values
-        if closed is not None and previous is not None and run.lacking > previous.lacking:
-            raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
-        if exact and run.finite and number > 1:  # the first run doesn't tell how large other solutions are
-            ceiling = max(ceiling, 2 * max(map(_growth, run.values)) + 2 * start_bits(digits))
-            if closed is not None:
-                ceiling = min(ceiling, most)
-        if bits >= ceiling or ceiling > most or (not exact and run.is_stalled(previous)):
-            return run.explained()
-        if run.finite:
-            previous = run
-        more = run.missing + 16
+            return _explained(previous, str(limit))
+        is_stalled = False
+        if values is not None:
+            if not _lacking(values):
+                return values
+            if closed is not None and previous is not None and _lacking(values) > _lacking(previous):
+                raise NotServed("a higher precision gives fewer digits: FLINT sums another series")
+            if exact and number > 1:  # the first run doesn't tell how large other solutions are
+                ceiling = max(ceiling, 2 * max(map(_growth, values)) + 2 * start_bits(digits))
+                if closed is not None:
+                    ceiling = min(ceiling, most)
+            is_stalled = not exact and previous is not None and _is_stalled(previous, values)
+        if bits >= ceiling or ceiling > most or is_stalled:
+            if values is None:
+                raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
+            return _explained(values)
+        previous = values or previous
+        more = 16 + (bits if values is None else max(value.missing for value in values))
         if closed is None:  # by multiples of 64, so that points of other calls share the expansions
             more = -(-more // 64) * 64
         bits = min(bits + more, ceiling)
+    raise AssertionError
 
 
-@dataclass(frozen=True)
-class _Run:
-    """The values at one precision, none if the balls aren't all finite; `lacking` of them lack up to `missing` bits."""
+def _run(journey: Journey, targets: Sequence[Number], closed: Closed | None, route: Route) -> Values | None:
+    """The values at the precision of this route; None if the balls aren't all finite."""
+    doubled = route.runs == 1 or closed is not None
+    with working_precision(route.bits + 40):
+        states = journey.states(targets, closed, route.bits)
+        missing = [_missing_bits(y, route.digits, route.bits, doubled=doubled) for y, _ in states]
+    _LOG.info(
+        "run %d, %d bits: %d of %d points to %d digits",
+        *(route.runs, route.bits, missing.count(0), len(missing), route.digits),
+    )
+    finite = all(part.is_finite() for state in states for part in state)
+    return tuple(map(PointValue, targets, states, missing, repeat(route))) if finite else None
 
-    values: tuple[PointValue, ...]
-    lacking: int
-    missing: int
-    route: Route
-    finite: bool
 
-    @classmethod
-    def made(cls, journey: Journey, targets: Sequence[Number], closed: Closed | None, route: Route) -> _Run:
-        """Make the journey once, at the precision of this route."""
-        doubled = route.runs == 1 or closed is not None
-        with working_precision(route.bits + 40):
-            states = journey.states(targets, closed, route.bits)
-            lacking = [_missing_bits(y, route.digits, route.bits, doubled=doubled) for y, _ in states]
-            finite = all(y.is_finite() and dy.is_finite() for y, dy in states)
-            values = tuple(map(PointValue, targets, states, lacking, repeat(route))) if finite else ()
-        _LOG.info(
-            "run %d, %d bits: %d of %d points to %d digits",
-            *(route.runs, route.bits, lacking.count(0), len(lacking), route.digits),
-        )
-        return cls(values, len(lacking) - lacking.count(0), max(lacking, default=0), route, finite)
+def _lacking(values: Values) -> int:
+    return sum(value.missing > 0 for value in values)
 
-    def is_stalled(self, previous: _Run | None) -> bool:
-        """True if a higher precision hasn't halved the balls: their size comes from the initial values."""
-        if previous is None or not self.finite:
-            return False
-        lacking = [pair for pair in zip(previous.values, self.values, strict=True) if pair[1].missing]
-        # A ball around 0 may at first be wide just because the precision was too low.
-        if self.route.runs <= 2 and any(value.y.contains_zero() for _, value in lacking):
-            return False
-        return all(2 * arb(value.y.rad) > arb(before.y.rad) for before, value in lacking)
 
-    def explained(self, limit: str | None = None) -> tuple[PointValue, ...]:
-        """The values; those that lack digits with a note, which is the limit or a reason that their balls give.
+def _is_stalled(previous: Values, values: Values) -> bool:
+    """True if a higher precision hasn't halved the balls: their size comes from the initial values."""
+    lacking = [pair for pair in zip(previous, values, strict=True) if pair[1].missing]
+    # A ball around 0 may at first be wide just because the precision was too low.
+    if values[0].route.runs <= 2 and any(value.y.contains_zero() for _, value in lacking):
+        return False
+    return all(2 * arb(value.y.rad) > arb(before.y.rad) for before, value in lacking)
 
-        Raises LimitExceeded if there are none.
-        """
-        if not self.finite:
-            raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
-        return tuple(v if v.missing == 0 else replace(v, note=limit or _reason(v)) for v in self.values)
+
+def _explained(values: Values, limit: str | None = None) -> Values:
+    """Those that lack digits get a note, which is the limit or a reason that their balls give."""
+    return tuple(v if v.missing == 0 else replace(v, note=limit or _reason(v)) for v in values)
 
 
 def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:

@@ -46,13 +46,6 @@ from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.numbers.numerals import as_text
 
 
-def gauged(S: RatFunc, gamma: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
-    """a, b and c of a z'' + b z' + c z = 0, where y'' = S y, z = g y and gamma = g'/g."""
-    # y = z/g: y' = (z' - gamma z)/g, y'' = (z'' - 2 gamma z' + (gamma^2 - gamma') z)/g.
-    # S * 0 brings all three into one field.
-    return S * 0 + 1, S * 0 - 2 * gamma, gamma * gamma - gamma.derivative() - S
-
-
 def cleared(a: RatFunc, b: RatFunc, c: RatFunc, *others: RatFunc) -> list[RatFunc]:
     """All of these times the common denominator of the first three."""
     common = a.den
@@ -183,7 +176,9 @@ class NumericProblem:
     @cached_property
     def cleared(self) -> list[RatFunc]:
         """Polynomials a, b and c of the user's equation."""
-        return cleared(*gauged(self.S, self.gauge))
+        # y'' = S y and y = z/g: y' = (z' - gamma z)/g, y'' = (z'' - 2 gamma z' + (gamma^2 - gamma') z)/g.
+        zero, gamma = self.S * 0, self.gauge  # all of them in one field
+        return cleared(zero + 1, zero - 2 * gamma, gamma * gamma - gamma.derivative() - self.S)
 
     @cached_property
     def equation(self) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly]:

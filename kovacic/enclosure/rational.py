@@ -7,6 +7,12 @@ from u to v, with gamma = g'/g,
 
 A pole of gamma is a singular point of the user's equation even where S is regular: lines through one are refused.
 
+Each disc is free of singular points, so the matrix from where it is entered to where it is left is E(leave) E(enter)^-1 with
+the expansion E at its centre; the inverse is the adjugate, since det = 1 exactly.  The matrices E come from one expansion,
+summed term by term (`kovacic.enclosure.taylor`), or at thousands of digits from binary splitting
+(`kovacic.enclosure.splitting`).  The scale of a disc is half the distance from the centre to the nearest singular point (the
+terms then fall like 2^-n), or less where the solutions grow by more than a fixed share of the working precision.
+
 Solutions that oscillate towards infinity, over any distance in one step: by amplitude and phase.
 
 The guarantee: from `edge` on, on its half of the real axis, every state that is carried lies in the ball that is returned.
@@ -32,17 +38,18 @@ References: F. W. J. Olver, "Asymptotics and Special Functions" (1974), chapters
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpq_series
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.enclosure.classical import Classical, Closed
-from kovacic.enclosure.frame import System, frequency, is_apart, largest_exponent, log2
+from kovacic.enclosure.frame import Frame, System, frequency, is_apart, largest_exponent, log2, make_frame
 from kovacic.enclosure.frobenius import basis, junction
 from kovacic.enclosure.log_derivative import LogDerivative, log_derivative
 from kovacic.enclosure.matrices import (
@@ -51,25 +58,87 @@ from kovacic.enclosure.matrices import (
     MapProduct,
     Matrix,
     State,
+    adjugate,
     apply,
     fundamental,
     inverse_matrix,
+    matrix_product,
     multiply,
     real_part,
 )
-from kovacic.enclosure.points import ExactPoint, Points, are_real, around_zero, power_of_two, to_acb
+from kovacic.enclosure.points import ExactPoint, Points, are_real, around_zero, binary_exponent, power_of_two, to_acb
 from kovacic.enclosure.problem import NumericProblem
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.splitting import is_split
+from kovacic.enclosure.splitting import is_split, legs
 from kovacic.enclosure.start import recessive_rate
-from kovacic.enclosure.transport import growth_of_disc, walk
-from kovacic.enclosure.way import MAX_DISCS, Followed, Forecast, States, Step, Traveller, Way, position
+from kovacic.enclosure.taylor import expand
+from kovacic.enclosure.way import (
+    MAX_DISCS,
+    Followed,
+    Forecast,
+    States,
+    Step,
+    Traveller,
+    Way,
+    cover,
+    disc_step,
+    position,
+)
 from kovacic.limits import check_time, count_work
+
+_LOG = logging.getLogger(__name__)
 
 #: Terms of the series for the amplitude: this number takes one or two seconds, twice as many take ten (measured).
 _MOST_TERMS_OF_AMPLITUDE = 2000
 #: Beyond the precision of a way, for the phase and for products.
 _BITS_FOR_PRODUCTS = 40
+
+
+def growth_of_disc(prec: int, *, alone: bool) -> float:
+    """The bits by which the solutions may grow from the centre of a disc to its ends.
+
+    They are fewer where the disc is kept: polynomials are shorter at its targets, and a value that is smaller than the others
+    in the disc by more than the spare bits of the precision would need a second run.
+    """
+    return max(100.0, 0.2 * prec) if alone else max(30.0, 0.05 * prec)
+
+
+def frames(
+    system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True
+) -> Iterator[tuple[ExactPoint, Frame, ExactPoint]]:
+    """The discs that cover the straight way from a to b, with their ends: O(log(far/near)) of them for each singular point at
+    a distance between near and far.  `alone` if only the state at the end is needed."""
+    if a == b:
+        return
+    growth = growth_of_disc(prec, alone=alone)
+    steepest = largest_exponent(system, a)
+    e = binary_exponent((b - a).norm_squared()) if steepest is None else steepest
+    # Scales are powers of two: 5/8 of the distance to a singular point allows one half.
+    yield from cover(a, b, e, lambda centre, e, _: make_frame(system, centre, e, 0.625, growth))
+
+
+def walk(
+    system: System, a: ExactPoint, b: ExactPoint, prec: int, *, alone: bool = True, split: bool = False
+) -> Iterator[tuple[ExactPoint, Frame, Step]]:
+    """The discs of `frames` with the steps in them, `split` for matrices from binary splitting, which serve no targets."""
+    _LOG.debug("from %s to %s, %d bits%s", a, b, prec, ", by binary splitting" if split else "")
+    for number, (enter, frame, leave) in enumerate(frames(system, a, b, prec, alone=alone), 1):
+        _LOG.debug("disc %d: centre %s, radius 2^%d", number, frame.centre, frame.e)
+        count_work(prec)
+        if split:
+            step = Step(leave, partial(_split, system, frame, enter, leave, prec), _serves_none)
+        else:
+            step = disc_step(enter, leave, expand(frame, prec))
+        yield enter, frame, step
+
+
+def _split(system: System, frame: Frame, enter: ExactPoint, leave: ExactPoint, prec: int) -> Affine:
+    start, stop = map(matrix_product, legs(system, frame, enter, leave, prec))
+    return multiply(stop, adjugate(start)), NOTHING
+
+
+def _serves_none(state: State) -> Followed:
+    raise NotImplementedError("by splitting no targets are served but the end")
 
 
 @dataclass(frozen=True)
@@ -256,14 +325,6 @@ class RationalWay(Way):
     """The user's equation without a right-hand side, in discs of its normal form."""
 
     problem: NumericProblem
-    prec: int = 64
-
-    @property
-    def is_exact(self) -> bool:
-        return True
-
-    def at(self, prec: int) -> RationalWay:
-        return RationalWay(self.problem, prec)
 
     @cached_property
     def gauge(self) -> LogDerivative:
@@ -318,7 +379,7 @@ class RationalWay(Way):
     def decay_rate(self, x: ExactPoint) -> acb:
         prec = self.prec + 20
         normal = replace(self.problem, gauge=self.problem.gauge * 0)
-        rate = recessive_rate(RationalWay(normal, prec), self.problem.system, x, prec)
+        rate = recessive_rate(RationalWay(normal, prec=prec), self.problem.system, x, prec)
         return rate + self.gauge.value(to_acb(x))
 
     def departure(self, point: Singular, stop: ExactPoint, needed: tuple[bool, bool]) -> tuple[ExactPoint, Matrix]:
@@ -341,7 +402,7 @@ class RationalWay(Way):
 
     def _by_discs(self, traveller: Traveller, here: ExactPoint, stops: Points) -> States:
         """Along the line to the farthest stop, again and again: the discs on it serve others, too."""
-        system = self.problem.system
+        system, places = self.problem.system, self.problem.places
         found: States = {}
         waiting = sorted(set(stops), key=lambda stop: (stop - here).norm_squared())
         inward = self.into(here)
@@ -358,14 +419,11 @@ class RationalWay(Way):
                     stop
                     for stop in waiting
                     if stop == step.leave
-                    or ((stop - frame.centre).norm_squared() <= square and is_apart(system, here, enter, stop))
+                    or ((stop - frame.centre).norm_squared() <= square and is_apart(places, here, enter, stop))
                 ]
                 if served:
                     local = step.local(maps.apply(traveller.start))
                     for stop in served:
-                        # The walk has excluded the poles of S on the way to the stop, but none of gamma.
-                        if self.problem.gauge:
-                            self.check(here, stop)
                         found[stop] = apply(self.out_of(here, stop), local(stop))
                     waiting = [stop for stop in waiting if stop not in found]
                 if step.leave != farthest:  # the matrix of the last step isn't needed

@@ -173,9 +173,8 @@ class Singular:
         # t^2 y.. = theta (theta - 1) y, t y. = theta y: t^2 times the equation is a theta (theta - 1) + t b theta + t^2 c,
         # so A = a, B = t b - a and C = t^2 c, up to a power of t.
         lines = []
-        for k, (poly, order) in enumerate(zip(self.equation, self._orders, strict=True)):
-            moved = kind(poly)(kind([place, 1])).coeffs()
-            lines.append([0] * k + [v * 0 for v in moved[:order]] + moved[order:])  # the first ones are exactly zero
+        for k, poly in enumerate(self.equation):
+            lines.append([0] * k + kind(poly)(kind([place, 1])).coeffs())
         size = max(map(len, lines))
         a, b, c = (line + [0] * (size - len(line)) for line in lines)
         first = self._orders[0]

@@ -27,11 +27,10 @@ from kovacic.enclosure.journey import Journey
 from kovacic.enclosure.points import ExactPoint, Number, as_number, as_point, middle, to_ball
 from kovacic.enclosure.precision import PointValue, raise_precision, start_bits
 from kovacic.enclosure.problem import Coefficients, NumericProblem, as_problem
-from kovacic.enclosure.rational import side_of, way_for
+from kovacic.enclosure.rational import growth_of_disc, side_of, way_for
 from kovacic.enclosure.request import METHODS, Method, Path, Request, Start, number_of_digits
 from kovacic.enclosure.singular import Singular
 from kovacic.enclosure.start import read_start
-from kovacic.enclosure.transport import growth_of_disc
 from kovacic.enclosure.way import position
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, Budget, Limits, limits_of
@@ -152,9 +151,6 @@ def _ways(journey: Journey, targets: Sequence[Number]) -> Iterator[tuple[ExactPo
     place = middle(journey.vertices[-1]) if journey.vertices else journey.place
     here = place.near if isinstance(place, Singular) else place
     stops = [middle(target) for target in targets]
-    if journey.chain:
-        yield from pairwise([here, *stops])
-        return
     by_distance = sorted(stops, key=lambda stop: position(here, stop))
     farthest = {side_of(here, stop): stop for stop in by_distance if stop != here}
     for stop in farthest.values():

@@ -243,20 +243,19 @@ class Forecast:
         check_duration(each * (least - _DISCS_FOR_A_FORECAST), way)
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Way(ABC):
-    """An equation at some precision, whose solutions are carried along straight lines.
+    """An equation at a precision of about `prec` bits, whose solutions are carried along straight lines.
 
     The carried state may differ from the user's (y, y'): `into` and `out_of` convert between them.
     """
 
+    prec: int = 64
+
     @property
-    @abstractmethod
     def is_exact(self) -> bool:
         """True if a higher precision makes every ball smaller."""
-
-    @abstractmethod
-    def at(self, prec: int) -> Way:
-        """The way at about this many bits."""
+        return True
 
     @abstractmethod
     def check(self, a: ExactPoint, b: ExactPoint) -> None:

@@ -20,12 +20,12 @@ from hypothesis import strategies as st
 
 from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
-from kovacic.enclosure.frame import check_segment, distance_lower, foreseen_growth, frequency, shift
+from kovacic.enclosure.frame import check_segment, foreseen_growth, frequency, offsets, shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import NOTHING, MapProduct, State
-from kovacic.enclosure.points import as_point
+from kovacic.enclosure.points import as_number, as_point
+from kovacic.enclosure.rational import RationalWay, frames
 from kovacic.enclosure.singular import Singular
-from kovacic.enclosure.transport import frames
 from kovacic.enclosure.way import Followed, Forecast, Local, Ray, Step, Way
 
 
@@ -152,8 +152,8 @@ def test_the_bounds_of_a_disc_hold_along_a_ray(seed: int) -> None:
             rise + step * slope,
         )  # Euler's method stays below z'' = |S| z + 1
     assert bound.log2_least <= smallest + 1e-9
-    near = distance_lower(system, centre)
-    if near is None or near > 2 * float(frame.scale):  # |S| doesn't fall much between the sample points
+    distances = [d.abs_lower() for d, _ in offsets(system, centre)]
+    if all(near > 2 * float(frame.scale) for near in distances):  # |S| doesn't fall much between the sample points
         assert bound.gain >= 0.95 * rise / 2**smallest
         assert bound.slope_gain >= 0.95 * slope / 2**smallest
 
@@ -271,11 +271,6 @@ def straight_step(enter: ExactPoint) -> Step:
 class Straight(Way):
     """y'' = 0, in such discs."""
 
-    is_exact = True
-
-    def at(self, prec: int) -> Way:
-        return self
-
     def check(self, a: ExactPoint, b: ExactPoint) -> None:
         pass
 
@@ -297,6 +292,16 @@ def test_a_ray_that_forgets_its_first_discs_begins_again() -> None:
     ray = Ray(Straight(), ExactPoint(0), ExactPoint(1 << 15), (acb(3), acb(2)), MapProduct())
     for place in (1, 2500, 5000, 9000, 8999, 1, 9100, 20_000):
         assert ray.state(ExactPoint(place)) == (3 + 2 * place, 2)
+
+
+def test_an_imaginary_state_is_spread_in_both_directions() -> None:
+    """y'' = y, y(0) = i, y'(0) = 0 for a point known to 1/4: the value may be i cosh(1/4)."""
+    way = RationalWay(as_problem("1"))
+    y, _ = way.spread(as_number(arb(0, 0.25), "x"), (acb(0, 1), acb(0)))
+    assert y.contains(acb(0, 1.03))
+    real, _ = way.spread(as_number(arb(0, 0.25), "x"), (acb(1), acb(0)))
+    assert real.contains(1.03)
+    assert real.imag.is_zero()
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -289,7 +289,7 @@ def test_equations_with_sure_solutions_are_decided_first(S: str, x0: int, x: str
 def test_a_target_where_two_discs_meet_needs_no_way_of_its_own(caplog: pytest.LogCaptureFixture) -> None:
     # y'' = -10^4 y: the discs are [0, 1], [1, 2], ..., and these targets are among their ends
     targets = [Fraction(k, 4) for k in range(1, 41)]
-    with caplog.at_level("DEBUG", logger="kovacic.enclosure.transport"):
+    with caplog.at_level("DEBUG", logger="kovacic.enclosure.rational"):
         values = evaluate("-10^4", targets, x0=0, y0=0, dy0=100, method="taylor")
     ways = [record for record in caplog.records if record.getMessage().startswith("from ")]
     assert len(ways) == values[0].route.runs

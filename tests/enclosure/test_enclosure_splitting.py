@@ -49,7 +49,7 @@ def both_ways(system: System, path: list[ExactPoint], prec: int) -> tuple[Matrix
     with flint.ctx.workprec(prec + 40), pytest.MonkeyPatch.context() as patch:
         for split in (False, True):
             patch.setattr(rational, "is_split", lambda *_, split=split: split)
-            way = rational.RationalWay(as_problem(pair_of(system)), prec)
+            way = rational.RationalWay(as_problem(pair_of(system)), prec=prec)
             try:
                 for a, b in pairwise(path):
                     way.check(a, b)

@@ -12,6 +12,8 @@ from build import bounded_work, parametrize
 from scipy.integrate import solve_ivp
 
 import kovacic
+from kovacic.enclosure.analytic import period_of
+from kovacic.enclosure.functions import coefficients_of_any
 from kovacic.limits import CLOCK
 
 BUMPS = [
@@ -102,3 +104,13 @@ def test_thousands_of_oscillations_are_one_step() -> None:
     with bounded_work(1600):
         value = kovacic.evaluate("-(x^2+1)/(x^2+4)", 10**5, x0=0, y0=1, dy0=0)
     assert float(value) == pytest.approx(-0.02070360324758066, abs=1e-17)  # 3,131 discs gave the same
+
+
+@pytest.mark.parametrize("coefficient", ["sin(x^2 + x)", "sin(x) + cos(sqrt(2)*x)", "sin(x)/(x + 2)"])
+def test_functions_without_a_period_have_none(coefficient: str) -> None:
+    given = coefficients_of_any(f"y'' + ({coefficient})*y = 0", None, kovacic.Limits())
+    assert period_of(given) is None
+
+
+def test_a_gauge_with_conjugate_poles_keeps_values_real() -> None:
+    assert kovacic.evaluate("y'' + 2*x/(x^2 + 1)*y' + y = 0", 1, x0=0, y0=1, dy0=0).real

@@ -9,6 +9,7 @@ import sympy
 
 import kovacic
 from kovacic import eigenvalues
+from kovacic.sturm_liouville.discs import germ
 
 HALF_LINE = (0, "oo")
 
@@ -324,3 +325,10 @@ def test_a_level_far_from_the_ends_of_its_bracket():
     """Where the mismatch is 10^12 times larger at one end, chords alone would stay next to the other one."""
     found = schroedinger("1/(1 + x^2)", "y'(0) + 5*y(0) = 0", domain=(0, "oo"), count=1, digits=8)
     check(found, ["-24.01812117"], digits=7)
+
+
+def test_a_germ_has_its_limit_at_zero():
+    t, s = sympy.symbols("t s")
+    assert germ(sympy.sin(t), t, 1).subs(t, 0) == 1
+    assert germ(1 - sympy.cos(t), t, 2).subs(t, 0) == sympy.Rational(1, 2)
+    assert germ(sympy.sin(s * t), t, 1).subs(s, 2) == germ(sympy.sin(2 * t), t, 1)
