@@ -66,9 +66,8 @@ from flint import (
 )
 from flint import nmod_poly as nmod
 
-LARGEST_COMPUTED = (
-    10_000  # degrees, terms of series: larger ones could fill the memory before the minute for a line is over
-)
+# Degrees and terms of series: larger ones could fill the memory before the minute for a line is over.
+LARGEST_COMPUTED = 10_000
 LARGE_PRIMES = [q for q in range(2**60 + 33, 2**60 + 20_000, 2) if fmpz(q).is_prime()]
 
 
@@ -100,11 +99,6 @@ def the_list(value: Any, what: str) -> list[Any]:
     """The value, which must be a list."""
     demand(isinstance(value, list), f"{what} is a list")
     return list(value)
-
-
-def is_whole(value: Any) -> bool:
-    """True for an integer that isn't a truth value."""
-    return type(value) is int
 
 
 def affordable(size: Any, what: str) -> int:
@@ -694,24 +688,22 @@ def simple_roots_modulo(p: Any, q: int) -> list[int]:
 class AlgebraicPoint:
     """A root r of a polynomial over K: t and r in Q[g]/P, with g = r + shift t, and all of its conjugates over K."""
 
-    def __init__(self, modulus: Any, P: Any, t: Any, r: Any, shift: int = 0) -> None:
+    def __init__(self, modulus: Any, P: Any, t: Any, r: Any) -> None:
         self.modulus = modulus
         self.P = P
         self.t = t
         self.r = r
-        self.shift = shift
         self.size = int(P.degree() // modulus.degree())
 
     def at(self, f: Any) -> Any:
         """f(t, r) in Q[g]/P."""
         total = fmpq_poly(0)
         for power, part in over_k(f).items():
-            total += self.composed(part) * self.composed(X**power, self.t) % self.P
+            total += self.composed(part, self.r) * self.composed(X**power, self.t) % self.P
         return total
 
-    def composed(self, part: Any, r: Any = None) -> Any:
-        """The value of a polynomial over Q at r."""
-        r = self.r if r is None else r
+    def composed(self, part: Any, r: Any) -> Any:
+        """The value of a polynomial over Q at an element of Q[g]/P."""
         if r == X % self.P:
             return part % self.P
         total = fmpq_poly(0)
@@ -760,13 +752,6 @@ class AlgebraicPoint:
         return X2**self.size - PLANE.from_dict({(0, *e): c for e, c in zip(exponents, solved, strict=True)})
 
 
-def at_root(modulus: Any, P: Any, k: int, R: Any, slope: Any, shift: int) -> AlgebraicPoint:
-    """The point for a factor P^k of R(x, s), with the derivative of R by s."""
-    rest = P ** (k - 1)
-    t = -(slope // rest) * (R.derivative() // rest).xgcd(P)[1] % P
-    return AlgebraicPoint(modulus, P, t, (X - shift * t) % P, shift)
-
-
 def points_of(f: Any, modulus: Any) -> list[tuple[AlgebraicPoint, int]]:
     """The roots of a polynomial over K, and their multiplicities.
 
@@ -775,15 +760,17 @@ def points_of(f: Any, modulus: Any) -> list[tuple[AlgebraicPoint, int]]:
     """
     if degree(f) <= 0:
         return []
-    if modulus.degree() == 1:
-        factors = in_one_variable(f, 2).factor()[1]
-        return [(AlgebraicPoint(modulus, p / p.leading_coefficient(), 0 * X, X % p), k) for p, k in factors]
     relation = at_generator(modulus, T)
     for shift in range(40):
         norm = relation.resultant(f.compose(C, T, X2 - (C + shift) * T), "t")
         parts = by_powers(norm, 0)
         R, slope = (in_one_variable(parts.get(k, 0 * C), 2) for k in (0, 1))
-        found = [(at_root(modulus, p / p.leading_coefficient(), k, R, slope, shift), k) for p, k in R.factor()[1]]
+        found = []
+        for factor, k in R.factor()[1]:
+            P = factor / factor.leading_coefficient()
+            rest = P ** (k - 1)
+            t = -(slope // rest) * (R.derivative() // rest).xgcd(P)[1] % P
+            found.append((AlgebraicPoint(modulus, P, t, (X - shift * t) % P), k))
         are_roots = all(value == 0 for point, k in found for value in [point.at(relation), *point.taylor(f, k)])
         if are_roots and sum(point.size * k for point, k in found) == degree(f):
             return found
@@ -812,7 +799,7 @@ class LocalPlace(AlgebraicPoint):
     """A point with the multiplicity k in den, where S = num/den; infinity as z = 0 for S(1/z)/z^4."""
 
     def __init__(self, point: AlgebraicPoint, k: int, num: Any, den: Any, infinite: bool = False) -> None:
-        super().__init__(point.modulus, point.P, point.t, point.r, point.shift)
+        super().__init__(point.modulus, point.P, point.t, point.r)
         self.k = k
         self.num = num
         self.den = den
@@ -1064,26 +1051,23 @@ class Exclusions:
         One necessary condition, or the absence of the rational form; but a reducible group has one only where omega
         isn't unique, and then there must be no unique omega either.
         """
-        conditions = 0
-        forms = 0
-        omegas = 0
+        absent = []
         for item in the_list(evidence, "the evidence"):
             kind = item["kind"]
             if kind == "necessary_condition":
                 self.condition(structure, item)
-                omegas += item["rule"] == "not_a_square"
-                conditions += item["rule"] != "not_a_square"
+                absent.append("omega" if item["rule"] == "not_a_square" else "the structure")
             elif kind == "no_invariant":
                 self.no_form(STRUCTURES[structure].form, item)
-                forms += 1
+                absent.append("form")
             elif kind == "no_terminating_series":
                 raise NotImplementedError("that no series ends isn't proven here")
             else:
                 demand(kind == "no_rational_omega" and structure == "reducible", "the kind of the evidence is known")
                 self.no_omega(item)
-                omegas += 1
-        without_a_form = (0, 1, 1) if structure == "reducible" else (0, 1, 0)
-        demand((conditions, forms, omegas) in ((1, 0, 0), without_a_form), f"the group isn't {structure}")
+                absent.append("omega")
+        without_a_form = ["form", "omega"] if structure == "reducible" else ["form"]
+        demand(sorted(absent) in (["the structure"], without_a_form), f"the group isn't {structure}")
 
     def condition(self, structure: str, item: dict[str, Any]) -> None:
         """The rule holds at each place that is named; or these are all that can branch, fewer than two points."""
@@ -1120,7 +1104,7 @@ class Exclusions:
         if room < 0:
             demand_equal((item["prime"], item["point"]), (None, 0), "where there is no room, prime and point")
             return
-        demand(is_whole(item["prime"]) and is_whole(item["point"]), "prime and point are integers")
+        demand(type(item["prime"]) is type(item["point"]) is int, "prime and point are integers")
         demand(self.dimension(m, item["prime"], item["point"]) == 0, f"there is no rational form of degree {m}")
 
     def room(self, m: int) -> Any:
@@ -1171,11 +1155,11 @@ class Exclusions:
         demand_keys(item, "evidence", "kind degree prime place")
         prime = item["prime"]
         name = item["place"]
-        demand(is_whole(item["degree"]) and item["degree"] >= -1, "the degree is one, or -1")
+        demand(type(item["degree"]) is int and item["degree"] >= -1, "the degree is one, or -1")
         if item["degree"] < 0:
             demand_equal((prime, name), (None, ""), "prime and place, without a degree,")
         else:
-            demand(is_whole(prime) and name, "a prime and a place belong to a degree")
+            demand(type(prime) is int and name, "a prime and a place belong to a degree")
         zeros, is_bound = self.zeros
         if not is_bound:  # otherwise the program may have another bound
             demand_equal(item["degree"], zeros, "the largest number of zeros")
@@ -1353,19 +1337,6 @@ def as_json(number: int | None) -> int | str | None:
     return number if number is None or number < 10**4300 else str(fmpz(number))
 
 
-def check_group(group: dict[str, Any], family: str, n: int | None, used: set[str]) -> None:
-    """Every claim about the group follows from its family, and the evidence is what was used."""
-    demand_keys(group, "the group", "name order finite", "family n function orders")
-    order = SIZES[family] * (n or 1) if family in SIZES else None
-    size = as_json(order)
-    degree = as_json(n)
-    name = GROUP_NAMES.get(f"{family}{degree}", GROUP_NAMES[family]).format(n=degree, order=size)
-    expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": degree}
-    for key in set(expected) & set(group):
-        demand_equal(group[key], expected[key], f"the {key} of the group")
-    demand(set(group) & {"function", "orders"} == used, "the group needs this evidence")
-
-
 def reducible_group(places: list[LocalPlace], F: FormOfSolutions | None) -> GroupFamily:
     """The upper triangular matrices with c on the diagonal, c^n = 1 or any c, or fewer: F is the rational form of degree 2.
 
@@ -1476,7 +1447,7 @@ class Imprimitive:
 
         Here eta has the residues d at the points P, l is their common denominator, and P' the conjugate of P.
         """
-        demand(is_whole(q) and is_whole(n) and n > 0, "prime and order are integers")
+        demand(type(q) is type(n) is int and n > 0, "prime and order are integers")
         demand(2 < q < 2**63 and fmpz(q).is_prime(), "an order is one modulo an odd prime")
         smaller = [n // int(p) for p, _ in fmpz(n).factor()]
         for t in simple_roots_modulo(self.exclusions.modulus, q):
@@ -1549,7 +1520,7 @@ def whole_exponent(value: Any) -> int:
     """An integer, or the text of a long one."""
     if isinstance(value, str) and value.isdecimal():
         return int(fmpz(value))
-    demand(is_whole(value), "an exponent is an integer")
+    demand(type(value) is int, "an exponent is an integer")
     return int(value)
 
 
@@ -1603,14 +1574,10 @@ class FunctionOnCurve:
         return total
 
     @cached_property
-    def norms(self) -> Any:
-        """The norm of the product of the pieces with odd exponents."""
-        return self.tower.normal(prod((a * a - self.h * b * b for e, a, b in self.pieces if e % 2), start=X2**0))
-
-    @cached_property
     def roots_of_norms(self) -> list[tuple[AlgebraicPoint, int]]:
-        """The roots of G, where that norm is a constant times G^2."""
-        roots = points_of(self.norms, self.modulus)
+        """The roots of G, where the norm of the product of the pieces with odd exponents is a constant times G^2."""
+        norms = (a * a - self.h * b * b for e, a, b in self.pieces if e % 2)
+        roots = points_of(self.tower.normal(prod(norms, start=X2**0)), self.modulus)
         demand(all(k % 2 == 0 for _, k in roots), "the norm of f is a square")
         return [(point, k // 2) for point, k in roots]
 
@@ -2034,16 +2001,23 @@ class CheckedAnswer:
         return F
 
     def group(self, f: FormOfSolutions | None, F: FormOfSolutions | None) -> None:
-        """The group is the one that is named: SL2, a finite primitive one, or found by the forms."""
+        """The group is the one that is named: SL2, a finite primitive one, or found by the forms, with its evidence."""
         group = self.data["group"]
         used = set[str]()
         demand_keys(group, "the group", "name order finite", "family n function orders")
-        family: GroupFamily = self.structure or "SL2", None
+        named: GroupFamily = self.structure or "SL2", None
         if self.structure == "reducible":
-            family = reducible_group(self.exclusions.places, F)
+            named = reducible_group(self.exclusions.places, F)
         elif self.structure == "imprimitive" and f is not None:
-            family, used = Imprimitive(self.exclusions, f.slope, f.discriminant, group).decide()
-        check_group(group, *family, used)
+            named, used = Imprimitive(self.exclusions, f.slope, f.discriminant, group).decide()
+        family, n = named[0], as_json(named[1])
+        order = SIZES[family] * (named[1] or 1) if family in SIZES else None
+        size = as_json(order)
+        name = GROUP_NAMES.get(f"{family}{n}", GROUP_NAMES[family]).format(n=n, order=size)
+        expected = {"name": name, "order": size, "finite": order is not None, "family": family, "n": n}
+        for key in set(expected) & set(group):
+            demand_equal(group[key], expected[key], f"the {key} of the group")
+        demand(set(group) & {"function", "orders"} == used, "the group needs this evidence")
 
 
 def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     is_short = bits <= _SHORT_COEFFICIENTS + _SHORT_PER_DEGREE * degree
     # At once where the time suffices for zeros of any kind, clusters included.
     if degree == 1 or (is_short and not may_be_late(degree**2 * (_SECONDS + _SECONDS_PER_BIT * bits))):
-        return _isolated_here(polynomial)
+        return tuple((root, int(k)) for root, k in polynomial.complex_roots())
     if degree == 2:
         return _of_quadratic(polynomial)
     from kovacic.process import computed_apart
@@ -58,10 +58,6 @@ def complex_zeros(polynomial: fmpz_poly) -> Zeros:
     coefficients = tuple([int(c) for c in polynomial.coeffs()])
     found = computed_apart(f"zeros of a polynomial of degree {degree}", _dyadic_zeros, coefficients, ctx.prec)
     return tuple((acb(_ball_of_dyadic(real), _ball_of_dyadic(imaginary)), k) for real, imaginary, k in found)
-
-
-def _isolated_here(polynomial: fmpz_poly) -> Zeros:
-    return tuple((root, int(k)) for root, k in polynomial.complex_roots())
 
 
 def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
@@ -81,8 +77,8 @@ def _of_quadratic(polynomial: fmpz_poly) -> Zeros:
 def _dyadic_zeros(coefficients: tuple[int, ...], prec: int) -> list[tuple[Any, Any, int]]:
     """Real part, imaginary part and multiplicity of each zero, in a form that pickles."""
     with working_precision(prec):
-        zeros = _isolated_here(fmpz_poly(list(coefficients)))
-        return [(_dyadic(root.real), _dyadic(root.imag), k) for root, k in zeros]
+        zeros = fmpz_poly(list(coefficients)).complex_roots()
+        return [(_dyadic(root.real), _dyadic(root.imag), int(k)) for root, k in zeros]
 
 
 def _dyadic(ball: arb) -> tuple[list[int], list[int]]:

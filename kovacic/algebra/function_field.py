@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, reduce
-from itertools import count
 from random import Random
 from typing import Any
 
@@ -33,9 +32,8 @@ from kovacic.algebra.sparse import (
 )
 from kovacic.limits import check_time
 
-#: Samples modulo the first prime between those modulo the others, and how many of these each of them gets at first.
-_FIRST_PRIME_RUN = 3
-_QUOTA = 32
+#: Samples modulo the second prime; there are more modulo each later one, as the answers that need them are longer.
+_FIRST_QUOTA = 32
 
 
 @cache
@@ -121,21 +119,13 @@ class FunctionField(Field):
         """Random points, most of them modulo the first prime, which is enough for functions with small coefficients."""
         usable = (p for p in primes() if allowed is None or allowed(p))
         first = next(usable)
-        other = next(usable)
-        left = _QUOTA
-        quota = _QUOTA
+        quota = _FIRST_QUOTA
         random = Random(20240229)
-        for index in count(1):
-            check_time()
-            p = first
-            if index % (_FIRST_PRIME_RUN + 1) == 0:
-                p = other
-                left = left - 1
-                if not left:
-                    quota += quota // 4
-                    left = quota
-                    other = next(usable)
-            yield (Evaluation(p, tuple(random.randrange(p) for _ in self.names)),)
+        for other in usable:
+            for p in (first, first, first, other) * quota:
+                check_time()
+                yield (Evaluation(p, tuple(random.randrange(p) for _ in self.names)),)
+            quota += quota // 4
 
     def collector(self, shape: tuple[int, ...]) -> Collector:
         return Samples(len(self.names), shape)

@@ -237,17 +237,11 @@ class RationalPoly(Poly):
     def height_bits(self) -> int:
         return max(int(self.rep.numer().height_bits()), int(self.rep.denom()).bit_length())
 
-    def to_str(self, variable: str = "x") -> str:
-        return self.integer_str(variable) if self.rep.denom() == 1 else super().to_str(variable)
-
     def coefficient_strings(self) -> list[str]:
-        coefficients = self.rep.numer().coeffs()
-        if self.degree <= _LOOK_DEGREE:
-            return list(map(str, coefficients))  # Python prints integers of at most 4300 digits
         written = []
-        for coefficient in coefficients:
+        for coefficient in self.rep.numer().coeffs():
             check_time()
-            written.append(str(coefficient))
+            written.append(str(coefficient))  # Python prints integers of at most 4300 digits
         return written
 
     def to_sympy(self, variable: Any) -> Any:

@@ -77,14 +77,7 @@ def _sparse_factors(names: tuple[str, ...], terms: _SparseTerms) -> tuple[int, l
 
 
 def _factored_at_once(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
-    try:
-        content, factors = polynomial.factor()
-    except OverflowError:  # python-flint 0.9.0 sorts factors of one shape by coefficients that must be machine integers
-        return _factored_over_q(polynomial)
-    return int(content), [(factor, int(k)) for factor, k in factors]
-
-
-def _factored_over_q(polynomial: Any) -> tuple[int, list[tuple[Any, int]]]:
+    # Over Q: python-flint 0.9.0 sorts integer factors of one shape by coefficients that must be machine integers.
     context = polynomial.context()
     rational = fmpq_mpoly_ctx.get(context.names(), Ordering.lex)
     _, parts = rational.from_dict({e: fmpq(c) for e, c in polynomial.to_dict().items()}).factor()

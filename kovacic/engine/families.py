@@ -63,22 +63,10 @@ class Roots:
         return found
 
 
-def is_natural(d: ExactNumber) -> bool:
-    """True for 0, 1, 2, ..."""
-    value = _as_rational(d)
-    return value is not None and value >= 0 and value.denominator == 1
-
-
-def natural(d: ExactNumber) -> int:
-    """The number 0, 1, 2, ... as an integer."""
-    value = _as_rational(d)
-    assert value is not None
-    assert value.denominator == 1
-    return value.numerator
-
-
-def _as_rational(number: ExactNumber) -> Fraction | None:
-    return number.field.rational_value(number) if isinstance(number, Poly) else Fraction(number)
+def natural(d: ExactNumber) -> int | None:
+    """The number as an integer if it is 0, 1, 2, ..., else None."""
+    value = d.field.rational_value(d) if isinstance(d, Poly) else Fraction(d)
+    return None if value is None or value < 0 or value.denominator > 1 else value.numerator
 
 
 def points_of_place(place: Place, roots: Roots) -> list[SingularPoint]:

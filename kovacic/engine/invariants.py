@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 from kovacic.algebra.homomorphism import BadPrimeError, Homomorphism
 from kovacic.algebra.lifting import Lifter
@@ -57,15 +57,11 @@ def least_invariant_valuation(place: Place, m: int, *, logarithms: bool = True) 
     return None
 
 
-class Bounds(NamedTuple):
-    """The least `valuations` of an invariant at all places, infinity's last, and the largest `degree` N of its P."""
+def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> tuple[list[int], int] | None:
+    """For an invariant of degree m the least valuations at all places, infinity's last, and the largest degree N of its P.
 
-    valuations: list[int]
-    degree: int
-
-
-def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> Bounds | None:
-    """The bounds that the places set for an invariant of degree m; None if there can be none."""
+    None if there can be none.
+    """
     valuations = list[int]()
     N = m
     for place in problem.places:
@@ -74,7 +70,7 @@ def bounds(problem: Problem, m: int, *, logarithms: bool = True) -> Bounds | Non
             return None
         valuations.append(v)
         N -= v * place.degree
-    return Bounds(valuations, N) if N >= 0 else None
+    return (valuations, N) if N >= 0 else None
 
 
 def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
@@ -82,83 +78,55 @@ def invariants(problem: Problem, m: int) -> list[Form] | NoInvariant:
     found = bounds(problem, m)
     if found is None:
         return NoInvariant(m)
-    problem.budget.check_degree(found.degree, f"an invariant of degree {m}")
-    search = _Search(problem, m, *found)
+    valuations, N = found
+    problem.budget.check_degree(N, f"an invariant of degree {m}")
+    R0 = singular_part(problem, valuations[:-1])
+
+    def verified(proposal: Sequence[Poly]) -> list[Form]:
+        """The forms with the proposed P, if all of them are right; else none."""
+        forms = [Form(m, R0, P) for P in proposal]
+        return forms if all(form.is_form(problem) for form in forms) else []
+
+    # Equations beyond the number of unknowns, and the images modulo all primes that were of use with them.
+    margin = EXTRA_EQUATIONS
+    lifter = Lifter(problem.field)
+    may_use_recurrence = problem.field == QQ
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            spaces = [invariants_modulo(h, problem, m, *found, margin=search.margin) for h in bundle]
+            spaces = [invariants_modulo(h, problem, m, valuations, N, margin=margin) for h in bundle]
         except BadPrimeError:
             continue
-        for h, space in zip(bundle, spaces, strict=True):
-            if not space.basis:
-                return NoInvariant(m, prime=h.p, point=space.point, degree=found.degree)
-        forms = search.lifted(bundle, [space.basis for space in spaces])
-        if forms:
-            return forms
-    raise AssertionError("the sequence of primes is infinite")
-
-
-class _Search:
-    """The invariants of degree m, from their images modulo one prime after the other.
-
-    `margin` equations are taken beyond the number of unknowns; the `lifter` has the images of all primes that were of use.
-    """
-
-    def __init__(self, problem: Problem, m: int, valuations: list[int], N: int) -> None:
-        self.problem = problem
-        self.m = m
-        self.valuations = valuations
-        self.N = N
-        self.R0 = singular_part(problem, valuations[:-1])
-        self.margin = EXTRA_EQUATIONS
-        self.lifter = Lifter(problem.field)
-        self.recurrence_tried = False
-
-    def lifted(self, bundle: Sequence[Homomorphism], bases: Sequence[list[Any]]) -> list[Form]:
-        """A verified basis over the field, if one can be told with the bases modulo these primes; else none, for now."""
+        for h, (basis, point) in zip(bundle, spaces, strict=True):
+            if not basis:
+                return NoInvariant(m, prime=h.p, point=point, degree=N)
+        bases = [basis for basis, _ in spaces]
         dimensions = {len(basis) for basis in bases}
         if len(dimensions) > 1:
-            return []
-        forms = self._verified(self.lifter.add(bundle, bases) or [])
-        if forms:
+            continue
+        if forms := verified(lifter.add(bundle, bases) or []):
             return forms
         # Equation (2) of `riccati` modulo p says whether every P is an invariant there, beyond the terms that were compared.
-        problem = self.problem
-        for h, basis in zip(bundle, bases, strict=True):
-            D, T, R0 = h(problem.D), h(problem.T), h(self.R0)
-            if any(numerators(D, T, R0, P, self.m, self.m + 1)[-1] for P in basis):
-                self.margin *= 2  # more equations, from the beginning
-                self.lifter = Lifter(problem.field)
-                return []
-        if dimensions == {1} and not self.recurrence_tried and problem.field == QQ:
-            # Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as
-            # N + 20 of them; measured by `benchmarks/lifting.py`.
-            products = ((self.m + 1) * (problem.D.degree + 1)) ** 2
-            if self.lifter.primes_used * (self.N + 20) < products:
-                return []
-            self.recurrence_tried = True
-            P = polynomial_invariant(problem, self.m, self.N, self.valuations)  # over the field itself
-            return [] if P is None else self._verified([P])
-        return []
-
-    def _verified(self, proposal: Sequence[Poly]) -> list[Form]:
-        """The forms with the proposed P, if all of them are right; else none."""
-        forms = [Form(self.m, self.R0, P) for P in proposal]
-        return forms if all(form.is_form(self.problem) for form in forms) else []
-
-
-class ModularSpace(NamedTuple):
-    """The echelon `basis` modulo a prime of all P whose expansion at this `point` agrees with a form to enough terms."""
-
-    basis: list[Any]
-    point: int
+        images = [(h(problem.D), h(problem.T), h(R0), P) for h, basis in zip(bundle, bases, strict=True) for P in basis]
+        if any(numerators(*image, m, m + 1)[-1] for image in images):
+            margin *= 2  # more equations, from the beginning
+            lifter = Lifter(problem.field)
+            continue
+        # Building the recurrence takes about (m + 1)^2 n^2 products of short polynomials, and a prime about as long as
+        # N + 20 of them; measured by `benchmarks/lifting.py`.
+        products = ((m + 1) * (problem.D.degree + 1)) ** 2
+        if dimensions == {1} and may_use_recurrence and lifter.primes_used * (N + 20) >= products:
+            may_use_recurrence = False
+            P = polynomial_invariant(problem, m, N, valuations)  # over the field itself
+            if P is not None and (forms := verified([P])):
+                return forms
+    raise AssertionError("the sequence of primes is infinite")
 
 
 def invariants_modulo(
     h: Homomorphism, problem: Problem, m: int, valuations: Sequence[int], N: int, *, margin: int
-) -> ModularSpace:
-    """The polynomials P that agree with a form to N + m + 2 + margin terms."""
+) -> tuple[list[Any], int]:
+    """The echelon basis modulo a prime of all P whose expansion at a point agrees with a form to enough terms; the point."""
     num = h(problem.S.num)
     den = h.keeping_degree(problem.S.den)
     point = ordinary_point(den)
@@ -183,4 +151,4 @@ def invariants_modulo(
     for c in null_space(rows, m + 1, p):
         P = sum((column.truncate(N + 1) * value for column, value in zip(columns, c, strict=True)), columns[0] * 0)
         space.append(translate(P, -point % p))
-    return ModularSpace(echelon_by_degree(space), point)
+    return echelon_by_degree(space), point

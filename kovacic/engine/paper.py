@@ -43,7 +43,6 @@ from kovacic.engine.families import (
     SingularPoint,
     families,
     first_case_choices,
-    is_natural,
     natural,
     points_of_place,
     theta_numerator,
@@ -130,16 +129,15 @@ def search(problem: Problem, variable: str, m: int) -> Search | None:
 
     every = [Family(*family) for family in families(choices, points, m, roots.field)]
     hopeful = [family for family in every if _may_succeed(family, m)]
-    are_one_by_one = all(point.count == 1 for point in points)
-    natural = len(hopeful) if are_one_by_one else _naturals(choices, points, m)
+    count = len(hopeful) if all(point.count == 1 for point in points) else _naturals(choices, points, m)
     shown = every if m == 1 and total <= _FEW_FAMILIES else hopeful
-    trial = _Trial(problem, points, m, roots.field, Symbol(variable))
-    return Search(m, points, choices, total, natural, _tried(shown, trial))
+    tried = _tried(problem, points, m, roots.field, shown, Symbol(variable))
+    return Search(m, points, choices, total, count, tried)
 
 
 def _may_succeed(family: Family, m: int) -> bool:
     """True if d is natural and, for m = 2, one of the e is odd."""
-    return is_natural(family.d) and (m != 2 or any(choice.value % 2 for choice in family.choices))
+    return natural(family.d) is not None and (m != 2 or any(choice.value % 2 for choice in family.choices))
 
 
 def in_sympy(value: Any, x: Any) -> Any:
@@ -162,7 +160,7 @@ def _naturals(choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoin
             sums = longer
             if len(sums) > _MOST_FAMILIES:
                 return None
-    return sum(count for (d, all_even), count in sums.items() if is_natural(d) and not all_even)
+    return sum(count for (d, all_even), count in sums.items() if natural(d) is not None and not all_even)
 
 
 def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choice, ...] | None:
@@ -184,73 +182,52 @@ def _exponent_choices(point: SingularPoint, m: int, roots: Roots) -> tuple[Choic
     return tuple(Choice(int(value)) for value in sorted(values) if value.denominator == 1)
 
 
-def _tried(families: Sequence[Family], trial: _Trial) -> tuple[Family, ...]:
+def _tried(
+    problem: Problem, points: Sequence[SingularPoint], m: int, field: Field, families: Sequence[Family], x: Any
+) -> tuple[Family, ...]:
     """Step 3: with what came out for those that were tried; of few families these are all that may succeed, of more those up
     to the first success."""
+    D = problem.D.over(field)
+    T = problem.T.over(field)
+    n = D.degree
     found = list(families)
     work = 0
     for i, family in enumerate(families):
-        if not _may_succeed(family, trial.m):
+        d = natural(family.d)
+        if d is None or not _may_succeed(family, m):
             continue
-        work += trial.work(family)
+        work += (d + 1) * m * (m * n + d) * (n + 1) * field.absolute_degree**2
         if work > _MOST_TRIAL_WORK:
             break
-        found[i] = trial.outcome(family)
+        found[i] = _outcome(D, T, points, m, family, d, x)
         if found[i].P is not None and len(families) > _FEW_FAMILIES:
             break
     return tuple(found)
 
 
-class _Trial:
-    """Step 3 for the families of one problem."""
-
-    def __init__(self, problem: Problem, points: Sequence[SingularPoint], m: int, field: Field, x: Any) -> None:
-        self.m = m
-        self.field = field
-        self.x = x
-        self.D = problem.D.over(field)
-        self.T = problem.T.over(field)
-        self.points = points
-
-    def work(self, family: Family) -> int:
-        """About how many multiplications of coefficients the trial takes."""
-        n = self.D.degree
-        d = natural(family.d)
-        return (d + 1) * self.m * (self.m * n + d) * (n + 1) * self.field.absolute_degree**2
-
-    def outcome(self, family: Family) -> Family:
-        """The family with theta, and with P or the conditions for its existence."""
-        m = self.m
-        X = self.field.poly([0, 1])
-        d = natural(family.d)
-        R = theta_numerator(self.D, self.points, family.choices, SCALE[m])
-        # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
-        images = [numerators(self.D, self.T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
-        theta = self._theta(family)
-        # P of the highest degree: x^k - c_(k-1) x^(k-1) - ... - c_0, if the image of x^k is the sum of c_j times that of x^j.
-        P = None
-        for k in reversed(range(d + 1)):
-            found = combination(images[k], images[:k])
-            if found is not None:
-                P = self.field.poly([*(-c for c in found), 1])
-                break
-        if P is not None or d > _MOST_UNKNOWNS:
-            return replace(family, theta=theta, P=P)
-        unknowns, conditions = _vanishing_conditions(images, parameters_of(self.field))
-        return replace(family, theta=theta, conditions=conditions, unknowns=unknowns)
-
-    def _theta(self, family: Family) -> Any:
-        """theta, as a sum over the poles, as in the paper."""
-        x = self.x
-        terms = []
-        at_infinity, *at_poles = family.choices
-        for choice, point in zip(at_poles, self.points[1:], strict=True):
-            f = point.factor(self.field)
-            base = in_sympy(f, x)
-            terms.append(in_sympy(SCALE[self.m] * choice.value, x) * (in_sympy(f.derivative(), x) / base))
-            terms += [in_sympy(c, x) * base**power for power, c in choice.singular]
-        terms += [in_sympy(c, x) * x**power for power, c in at_infinity.singular]
-        return Add(*terms)
+def _outcome(D: Poly, T: Poly, points: Sequence[SingularPoint], m: int, family: Family, d: int, x: Any) -> Family:
+    """The family with theta, and with P or the conditions for its existence."""
+    X = D.field.poly([0, 1])
+    R = theta_numerator(D, points, family.choices, SCALE[m])
+    # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
+    images = [numerators(D, T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]
+    at_infinity, *at_poles = family.choices
+    terms = [in_sympy(c, x) * x**power for power, c in at_infinity.singular]
+    for choice, point in zip(at_poles, points[1:], strict=True):  # theta as a sum over the poles, as in the paper
+        f = point.factor(D.field)
+        base = in_sympy(f, x)
+        terms.append(in_sympy(SCALE[m] * choice.value, x) * (in_sympy(f.derivative(), x) / base))
+        terms += [in_sympy(c, x) * base**power for power, c in choice.singular]
+    theta = Add(*terms)
+    # P of the highest degree: x^k - c_(k-1) x^(k-1) - ... - c_0, if the image of x^k is the sum of c_j times that of x^j.
+    for k in reversed(range(d + 1)):
+        found = combination(images[k], images[:k])
+        if found is not None:
+            return replace(family, theta=theta, P=D.field.poly([*(-c for c in found), 1]))
+    if d > _MOST_UNKNOWNS:
+        return replace(family, theta=theta)
+    unknowns, conditions = _vanishing_conditions(images, parameters_of(D.field))
+    return replace(family, theta=theta, conditions=conditions, unknowns=unknowns)
 
 
 def _vanishing_conditions(images: Sequence[Poly], parameters: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:

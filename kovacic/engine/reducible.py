@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import count, islice
+from itertools import count
 from typing import Any
 
 from kovacic.algebra.extension import adjoined_square_root
@@ -34,11 +34,10 @@ from kovacic.engine.local import (
     omega_parts,
     rational_omega,
 )
-from kovacic.engine.places import Kind, Place, Problem
+from kovacic.engine.places import Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
-from kovacic.engine.terminating import terminating_series
+from kovacic.engine.terminating import candidates, terminating_series
 from kovacic.errors import LimitExceeded
-from kovacic.limits import MOST_TRIALS, count_work
 
 
 def decide_rational_omega(problem: Problem) -> Outcome:
@@ -138,82 +137,45 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     bound = degree_bound(problem) if is_cheap(problem) else None
     if bound is not None and not isinstance(bound, DegreeBound):
         return bound
-    search = _ModularSearch(problem, bound)
+    # Only finitely many local solutions can belong to omega there; the cheapest such place.
+    suitable = (place for place in problem.places if not place.is_apparent)
+    place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
+    degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
+    # For small degrees the expansion that can be left out costs less than to find it.
+    exponents = bound.exponents(place) if bound is not None and bound.largest > degrees[0] else None
     lifter = Lifter(problem.field)
     for bundle in problem.field.bundles():
         problem.budget.check()
         try:
-            images = search.images(bundle)
+            found = [_omega_modulo(h, problem, place, degrees, exponents) for h in bundle]
+            if None in found:
+                bound = bound or degree_bound(problem)
+                if not isinstance(bound, DegreeBound):
+                    return bound
+                if further := [n for n in _ladder(bound.largest) if n > degrees[-1]]:
+                    found = [_omega_modulo(h, problem, place, further, exponents) for h in bundle]
         except BadPrimeError:
             continue
-        if not isinstance(images, list):
-            return images
+        if isinstance(bound, DegreeBound) and None in found:
+            return NoRationalOmega(bound.largest, bundle[found.index(None)].p, place.name)
+        images = [part for part in found if part is not None]
+        degrees = [images[0][1]]
         form = _lifted_omega(problem, lifter, bundle, images)
         if form is not None:
             return form
     raise AssertionError("the sequence of primes is infinite")
 
 
-class _ModularSearch:
-    """The search for omega modulo primes.  It keeps the bound on the degree of P, which is computed on demand, and the degrees
-    that are worth a trial."""
-
-    def __init__(self, problem: Problem, bound: DegreeBound | None) -> None:
-        # Only finitely many local solutions can belong to omega there; the cheapest such place.
-        suitable = (place for place in problem.places if not place.is_apparent)
-        self._place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
-        self._problem = problem
-        self._bound: DegreeBound | Evidence | None = bound
-        self._degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
-        # For small degrees the expansion that can be left out costs less than to find it.
-        left_out = bound is not None and bound.largest > self._degrees[0]
-        self._exponents = bound.exponents(self._place) if bound is not None and left_out else None
-
-    def images(self, bundle: Sequence[Homomorphism]) -> list[tuple[Any, int]] | Evidence:
-        """R and deg P of omega modulo each prime, or a proof that there is none.  Raises `BadPrimeError`."""
-        found = self._modulo(bundle, self._degrees)
-        if None in found:
-            if self._bound is None:
-                self._bound = degree_bound(self._problem)
-            if not isinstance(self._bound, DegreeBound):
-                return self._bound
-            further = [n for n in _ladder(self._bound.largest) if n > self._degrees[-1]]
-            if further:
-                found = self._modulo(bundle, further)
-            for h, part in zip(bundle, found, strict=True):
-                if part is None:
-                    return NoRationalOmega(self._bound.largest, h.p, self._place.name)
-        images = [part for part in found if part is not None]
-        self._degrees = [images[0][1]]
-        return images
-
-    def _modulo(self, bundle: Sequence[Homomorphism], degrees: list[int]) -> list[tuple[Any, int] | None]:
-        return [_omega_modulo(h, self._problem, self._place, degrees, exponents=self._exponents) for h in bundle]
-
-
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
-    """Every omega = R/D + P'/P with a P of small degree that was found, by its expansion at a place."""
-    kinds = (Kind.REGULAR, Kind.UNRAMIFIED)
-    place = min((place for place in problem.places if place.kind in kinds), key=lambda p: p.degree, default=None)
+    """Every omega = R/D + P'/P over K with a P of low degree, by Kovacic's families."""
     found = list[Form]()
-    if place is None:
-        return found
-    for sign in (0, 1):
-        lifter = Lifter(problem.field)
-        for bundle in islice(problem.field.bundles(), MOST_TRIALS):
-            problem.budget.check()
-            count_work(_WORK_PER_PRIME)
-            try:
-                parts = [_omega_modulo(h, problem, place, _FIRST_DEGREES, sign=sign) for h in bundle]
-            except BadPrimeError:
-                continue
-            images = [part for part in parts if part is not None]
-            if len(images) < len(parts):
-                break
-            form = _lifted_omega(problem, lifter, bundle, images)
-            if form is not None:
-                found.append(form)
-                break
+    tried = candidates(problem)
+    for degree, theta in tried.pairs if tried else ():
+        R = (theta * problem.D).num
+        if degree <= _FIRST_DEGREES[-1] and R.field == problem.field:
+            P = _polynomial_part(problem, R, degree)
+            if P is not None and (form := normalised(Form(1, R, P), problem)) not in found:
+                found.append(form)  # once, though P may have zeros at an apparent singularity
     return found
 
 
@@ -233,8 +195,6 @@ def _lifted_omega(
 
 #: Degrees of P that are tried before their bound is computed where that is the more expensive part.
 _FIRST_DEGREES = [8, 32]
-#: Units of work, approximately, for each prime in the search for an omega of degree 1.
-_WORK_PER_PRIME = 25
 
 
 def _ladder(bound: int) -> list[int]:
@@ -247,21 +207,17 @@ def _omega_modulo(
     problem: Problem,
     place: Place,
     degrees: list[int],
-    *,
-    exponents: list[Fraction] | None = None,
-    sign: int | None = None,
+    exponents: list[Fraction] | None,
 ) -> tuple[Any, int] | None:
     """R and deg P of the only rational omega modulo p; None if there is none.
 
-    `exponents` restricts the search to expansions with these, `sign` to a single one.  Raises `BadPrimeError` if
-    the place has no root in F_p, or if there are two such omegas modulo p.
+    `exponents` restricts the search to expansions with these.  Raises `BadPrimeError` if the place has no root in F_p, or if
+    there are two such omegas modulo p.
     """
     c = modular_chart(h, problem, place)
     if c is None:
         raise BadPrimeError("the place has no root modulo this prime")
     parts = exponential_parts(c.equation, place, exponents)
-    if sign is not None:
-        parts = parts[sign : sign + 1]
     for degree in degrees:
         problem.budget.check()
         if degree > problem.budget.limits.unknown_degree:

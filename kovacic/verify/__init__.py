@@ -193,8 +193,7 @@ def _invariant_holds(
     F = decision.invariant
     if F is None:
         return structure is Structure.REDUCIBLE
-    known = inspector.factors if decision.exclusions else []  # which the exclusions need as well
-    if F.degree != INVARIANT_DEGREE[structure] or not is_rational(F, known):
+    if F.degree != INVARIANT_DEGREE[structure] or not is_rational(F):
         return False
     return is_power(F, form) or form_numerators(inspector.S, F, riccati.D) is not None
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import count, islice
 from typing import Any
 
 from kovacic.algebra.poly import Poly
@@ -112,10 +112,7 @@ def dimension_modulo(
 
 def least_ordinary_point(den: Any) -> int:
     """The least natural number at which a polynomial modulo a prime doesn't vanish."""
-    at = 0
-    while not int(den(at)):
-        at += 1
-    return at
+    return next(at for at in count() if int(den(at)))
 
 
 #: The denominators of exponent differences in the finite primitive groups, modulo +-1.

@@ -9,7 +9,6 @@ References: Kovacic 1986, sections 1 and 4; Hendriks & van der Put, J. Symb. Com
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
@@ -121,20 +120,6 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
     return True
 
 
-@dataclass(frozen=True)
-class FormCurve:
-    """The local data of z^2 = g, g = f^2 for the form f = y1 y2, and eta = dx/z up to a constant, y1/y2 = exp(int eta).
-
-    Local data in characteristic 0 only; the arithmetic of classes on such a curve modulo a prime is `torsion.Curve`.
-
-    `branches` is the number of branch points, so that the genus is branches/2 - 1; `differences` has the exponent differences
-    at the double zeros of g, which are the residues of eta, up to their signs: its only poles.
-    """
-
-    branches: int
-    differences: frozenset[Fraction]
-
-
 def _imprimitive_holds(
     inspector: Inspector, f: SemiInvariant, riccati: RiccatiPolynomial, claim: GroupClaim
 ) -> bool | None:
@@ -150,17 +135,20 @@ def _imprimitive_holds(
     curve = _curve(inspector, f)
     if curve is None:
         return False
-    if curve.branches == 2:  # genus 0: y1/y2 is a product of powers of functions, with the exponents Delta
-        return named == ("dicyclic", lcm(*(difference.denominator for difference in curve.differences)))
-    if not curve.differences:  # a differential of the first kind, whose integral has periods
+    branches, differences = curve
+    if branches == 2:  # genus 0: y1/y2 is a product of powers of functions, with the exponents Delta
+        return named == ("dicyclic", lcm(*(difference.denominator for difference in differences)))
+    if not differences:  # a differential of the first kind, whose integral has periods
         return named == ("infinite dihedral", None)
-    return _on_curve_of_positive_genus(inspector, riccati, claim, curve)
+    return _on_curve_of_positive_genus(riccati, claim, differences)
 
 
-def _curve(inspector: Inspector, f: SemiInvariant) -> FormCurve | None:
-    """The curve z^2 = g from the valuations of g = f^2: twice the residues of theta, and at infinity by their sum, which is 4.
+def _curve(inspector: Inspector, f: SemiInvariant) -> tuple[int, set[Fraction]] | None:
+    """The number of branch points of z^2 = g, g = f^2, and the residues of eta = dx/z, up to signs and a constant.
 
-    None if a valuation isn't a whole number, or g has zeros or poles that aren't singular points.
+    Then y1/y2 = exp(int eta), and the genus is half the number, minus 1.  The poles of eta are the double zeros of g, its
+    residues the exponent differences there.  The valuations of g are twice the residues of theta; at infinity it follows from
+    their sum, which is 4.  None if one isn't a whole number, or g has zeros or poles that aren't singular points.
     """
     residues = dict(rational_residues(f.theta) or [])
     finite = inspector.points[:-1]
@@ -174,12 +162,10 @@ def _curve(inspector: Inspector, f: SemiInvariant) -> FormCurve | None:
     differences = {point.difference for point, valuation in pairs if valuation == 2}
     if f.P.degree:  # simple zeros of P at ordinary points, double ones of g
         differences.add(Fraction(1))
-    return FormCurve(branches, frozenset(d for d in differences if d is not None))
+    return branches, {d for d in differences if d is not None}
 
 
-def _on_curve_of_positive_genus(
-    inspector: Inspector, riccati: RiccatiPolynomial, claim: GroupClaim, curve: FormCurve
-) -> bool | None:
+def _on_curve_of_positive_genus(riccati: RiccatiPolynomial, claim: GroupClaim, residues: set[Fraction]) -> bool | None:
     """The group is finite exactly when k l eta is the logarithmic differential of a function, for some k: the claim says which.
 
     None for a claim that leaves this open.
@@ -193,6 +179,6 @@ def _on_curve_of_positive_genus(
             return has_holomorphic_rest(H, claim.function)
         # different orders of the divisor of l eta modulo two primes of good reduction; a finite one is the same modulo all
         are_different = len({k for _, k in claim.orders}) > 1
-        residues = set(curve.differences)
+
         return are_different and all(order_holds(H, residues, p, k) for p, k in claim.orders)
     return None if claim.family == "imprimitive" else False

@@ -11,7 +11,6 @@ theta has simple poles with integer residues only.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 
 from kovacic.algebra.poly import Poly
@@ -36,22 +35,15 @@ def form_numerators(S: RatFunc, F: SemiInvariant, D: Poly) -> list[Poly] | None:
     return None if A.pop() else A
 
 
-def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tuple[Poly, Fraction]] | None:
+def rational_residues(theta: RatFunc) -> list[tuple[Poly, Fraction]] | None:
     """The irreducible factors of the denominator with the residues of theta dx at their roots, all of them rational.
 
-    None if there is another pole, also at infinity, or another residue.  Some `factors` may be known.
+    None if there is another pole, also at infinity, or another residue.
     """
     if theta.num and theta.num.degree >= theta.den.degree:
         return None
-    # The known factors that divide the denominator, then those of the rest.
-    places, rest = [], theta.den
-    for p in factors:
-        cofactor = rest.exact_quotient(p)
-        if cofactor is not None:
-            places.append(p)
-            rest = cofactor
     residues = []
-    for p in [*places, *(p for p, _ in factors_of(rest))]:
+    for p, _ in factors_of(theta.den):
         # At the roots of p it is num/den', if these are simple poles.
         num = theta.num % p
         slope = theta.den.derivative() % p
@@ -65,9 +57,9 @@ def rational_residues(theta: RatFunc, factors: Sequence[Poly] = ()) -> list[tupl
     return residues
 
 
-def is_rational(F: SemiInvariant, factors: Sequence[Poly] = ()) -> bool:
-    """True if exp(int theta) P is a rational function.  Some `factors` of the denominator of theta may be known."""
-    residues = rational_residues(F.theta, factors)
+def is_rational(F: SemiInvariant) -> bool:
+    """True if exp(int theta) P is a rational function."""
+    residues = rational_residues(F.theta)
     return residues is not None and all(residue.denominator == 1 for _, residue in residues)
 
 

@@ -35,7 +35,7 @@ class Point:
     num: Poly
     den: Poly
     budget: Budget
-    expansions: Expansions | None = None
+    expansions: Expansions
     at_infinity: bool = False
 
     @cached_property
@@ -45,9 +45,7 @@ class Point:
     @cached_property
     def near(self) -> tuple[Poly, Poly]:
         """N and q modulo p^nu with S = N/(p^order q), nu = order/2 or 1."""
-        if self.expansions is not None:
-            return self.expansions.at(self.factor)
-        return _expansion_near(self.num, self.den, self.factor, self.order)
+        return self.expansions.near[self.factor]
 
     @cached_property
     def at_double_pole(self) -> tuple[Poly, Poly]:
@@ -134,56 +132,46 @@ class Point:
 def points(S: RatFunc, budget: Budget) -> list[Point]:
     """Every singular place, and infinity even if it is ordinary."""
     factors = factors_of(S.den)
-    regular = Expansions(S, [(p, order) for p, order in factors if order <= 2])
-    irregular = Expansions(S, [(p, order) for p, order in factors if order > 2])
+    regular = Expansions(S.num, S.den, [(p, order) for p, order in factors if order <= 2])
+    irregular = Expansions(S.num, S.den, [(p, order) for p, order in factors if order > 2])
     found = [Point(p, order, S.num, S.den, budget, regular if order <= 2 else irregular) for p, order in factors]
     # S(1/z)/z^4 = N/(z^k M), k = deg num - deg den + 4, where N and M have the coefficients of num and den in the reversed
     # order; a negative k gives N a power of z.
     k = S.num.degree - S.den.degree + 4 if S.num else 0
     num = S.num.reversed(max(-k, 0))
     den = S.den.reversed(max(k, 0))
-    return [*found, Point(S.field.poly([0, 1]), max(k, 0), num, den, budget, at_infinity=True)]
-
-
-def _expansion_near(num: Poly, den: Poly, p: Poly, order: int) -> tuple[Poly, Poly]:
-    """N and q modulo p^nu with num/den = N/(p^order q), nu = order/2 or 1."""
-    modulus = p ** max(order // 2, 1)
-    return num % modulus, den // p**order % modulus
+    x = S.field.poly([0, 1])
+    return [*found, Point(x, max(k, 0), num, den, budget, Expansions(num, den, [(x, max(k, 0))]), at_infinity=True)]
 
 
 @dataclass(frozen=True, eq=False)
 class Expansions:
     """Shared by the points at some factors of the denominator, with these orders.
 
-    `_expansion_near` is computed for the first one alone, which is often enough, and for all others together: at 200 poles
-    that takes a fifth of the time.  A claim at irregular points, where there are many digits, may need one of them, or all.
+    All are expanded together when the first one is needed: at 200 poles that takes a fifth of the time.  A claim at irregular
+    points, where there are many digits, may need one of them, or all.
     """
 
-    S: RatFunc
+    num: Poly
+    den: Poly
     factors: list[tuple[Poly, int]]
 
-    def at(self, factor: Poly) -> tuple[Poly, Poly]:
-        first, order = self.factors[0]
-        if factor == first:
-            return _expansion_near(self.S.num, self.S.den, first, order)
-        return self.together[factor]
-
     @cached_property
-    def together(self) -> dict[Poly, tuple[Poly, Poly]]:
-        """All of them, order by order: the numbers of their product are much shorter than those of its power in den."""
+    def near(self) -> dict[Poly, tuple[Poly, Poly]]:
+        """`Point.near` for each factor, order by order: their product has much shorter numbers than its power in den."""
         found = {}
         for order in {order for _, order in self.factors}:
             # With den = P^order R, P the product of the places p of this order, q is (P/p)^order R.
             places = [p for p, other in self.factors if other == order]
             nu = max(order // 2, 1)
             P = product(places)
-            R = self.S.den // P**order
+            R = self.den // P**order
             moduli = [p**nu for p in places]
-            nums = _remainders_by_halves(self.S.num, moduli)
+            nums = _remainders_by_halves(self.num, moduli)
             outer = _remainders_by_halves(R, moduli)
             inner = _remainders_by_halves(P, [p ** (nu + 1) for p in places])
-            for p, modulus, N, far, near in zip(places, moduli, nums, outer, inner, strict=True):
-                found[p] = (N, _power_modulo(near // p, order, modulus) * far % modulus)
+            for p, modulus, N, far, close in zip(places, moduli, nums, outer, inner, strict=True):
+                found[p] = (N, _power_modulo(close // p, order, modulus) * far % modulus)
         return found
 
 

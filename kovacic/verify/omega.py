@@ -40,10 +40,6 @@ class Chart:
         """The order of the pole of omega."""
         return max(self.place.order, 2) // 2
 
-    def is_omega(self, A: Any, B: Any) -> bool:
-        """True if omega = A/B satisfies omega' + omega^2 = num/den."""
-        return bool(self.den * (A.derivative() * B - A * B.derivative() + A * A) == self.num * B * B)
-
 
 def chart(place: Point, points: list[Point], h: Homomorphism, root: int) -> Chart:
     """In the coordinate t of the place; its other end is x = infinity or, for the place at infinity, x = 0.
@@ -123,4 +119,6 @@ def _has_rational_omega(at: Chart, start: Any, degree: int) -> bool:
     correction = u.derivative().mul_low(u.inverse_series_trunc(count), count).left_shift(at.nu)
     series = (start + correction).truncate(count)
     A, P = rational_candidate(at.den.right_shift(at.nu).mul_low(series, count), count, top)
-    return P.degree() <= degree and at.is_omega(A, at.den * P)
+    B = at.den * P  # (A/B)' + (A/B)^2 = num/den
+    is_omega = at.den * (A.derivative() * B - A * B.derivative() + A * A) == at.num * B * B
+    return bool(P.degree() <= degree and is_omega)

@@ -14,7 +14,7 @@ from sympy import Add, Symbol, sqrt
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.answer import Answer
 from kovacic.decision import Status
-from kovacic.engine.families import SingularPoint, is_natural, natural
+from kovacic.engine.families import SingularPoint, natural
 from kovacic.engine.paper import Family, Search, in_sympy, search
 from kovacic.engine.places import Kind, Place, Problem, analyse
 from kovacic.equation import parameters_of
@@ -188,7 +188,7 @@ class Steps:
                 outcome = self._shown(family.P)
             elif family.theta is not None:
                 outcome = "none"
-            elif is_natural(family.d):
+            elif natural(family.d) is not None:
                 outcome = "not tried"
             values = [self._shown(choice.value) for choice in family.choices]
             rows.append([*values, self._shown(family.d), outcome])
@@ -237,6 +237,7 @@ class Steps:
 
     def _trial(self, family: Family) -> Iterator[Block]:
         d = natural(family.d)
+        assert d is not None  # only such families were tried
         yield Formula(Math.of("theta").equals(self._shown(family.theta)))
         # A coefficient without unknowns is a number, and not 0: it excludes P at once.
         unknowns = set(family.unknowns)

@@ -12,7 +12,7 @@ from build import QQ, Budget, analyse, generated, parametrize, size
 from hypothesis import given
 
 import kovacic
-from kovacic.engine.families import Roots, is_natural
+from kovacic.engine.families import Roots, natural
 from kovacic.engine.paper import Search, in_sympy, search
 
 
@@ -87,7 +87,9 @@ def test_the_paper_s_steps_find_what_the_engine_finds(example: strategies.Exampl
         if found is not None and succeeds(found):
             assert degree == m
         elif (
-            found is not None and found.complete and all(f.theta is not None for f in found.families if is_natural(f.d))
+            found is not None
+            and found.complete
+            and all(f.theta is not None for f in found.families if natural(f.d) is not None)
         ):
             assert degree != m
         if degree == m:
@@ -177,11 +179,11 @@ def test_the_steps_agree_with_the_engine_over_larger_fields(text: str, tried: bo
     ramified = any(place.order in (3, 5) for place in analyse(answer.S, Budget()).places)
     for m in range(2 if ramified else 1, (degree or 2) + 1):
         found = searched(answer, m)
-        natural = [family for family in found.families or () if is_natural(family.d)]
+        hopeful = [family for family in found.families or () if natural(family.d) is not None]
         assert found.complete
         assert succeeds(found) == (tried and degree == m)
-        assert all((family.theta is not None) == tried for family in natural if family.P is not None or m == 1)
-        for family in natural:
+        assert all((family.theta is not None) == tried for family in hopeful if family.P is not None or m == 1)
+        for family in hopeful:
             if m == 1 and family.P is not None:
                 P = in_sympy(family.P, x)
                 omega = family.theta + sympy.diff(P, x) / P
@@ -201,9 +203,9 @@ def test_nested_square_roots_that_cancel_are_an_integer() -> None:
     multiple = roots.root(9 + 9 * two)
     assert roots.field is field
     assert field.absolute_degree == 4
-    assert is_natural(multiple / nested + 3) != is_natural(2 - multiple / nested)
-    assert is_natural((multiple - 3 * nested) * (multiple + 3 * nested) + 2)
-    assert not is_natural(multiple - nested)
+    assert (natural(multiple / nested + 3) is None) != (natural(2 - multiple / nested) is None)
+    assert natural((multiple - 3 * nested) * (multiple + 3 * nested) + 2) is not None
+    assert natural(multiple - nested) is None
 
 
 def test_a_single_family_is_one() -> None:
