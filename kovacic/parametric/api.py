@@ -157,12 +157,12 @@ def _false_formulas(
     """The solutions of a region that provably don't solve the equation at a rational point, one sentence each."""
     x = sympy.Dummy()
     values = {sympy.Symbol(name): value.to_sympy(x) for name, value in zip(point.names, point.values, strict=True)}
-    equation = normal_form_equation(S, found.variable) if found.equation is None else equation_at(found.equation, point)
+    equation = equation_at(found.equation or normal_form_equation(found.S, found.variable), point)
     formulas = region.formulas
     if point.field != QQ or found.letters or equation is None or not isinstance(formulas, Carried):
         return
     # For larger degrees the coefficients of P, functions of the parameters, take long.
-    degrees_of_P = chain.from_iterable(part.numbers_at(point) for part in region.naturals if part.m == 1)
+    degrees_of_P = chain.from_iterable(part.numbers_at(point) for part in region.naturals)
     for number in [d for d in degrees_of_P if d <= DEFAULT_DEGREE] if region.naturals else [None]:
         # Formulas for other values aren't even translated to the given equation.
         meant = [solution for solution in formulas.found(number) if solution.at(values) is not None]

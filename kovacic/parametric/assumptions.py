@@ -29,14 +29,16 @@ from kovacic.algebra.rationals import QQ
 from kovacic.errors import InputError
 from kovacic.limits import MOST_TRIALS
 from kovacic.parametric.claims import (
+    EVEN,
     INTEGERS,
     NO_CONSTANT,
+    ODD,
     Classes,
     ParameterPoint,
     common_divisor,
     degrees,
     denominator,
-    numerator,
+    irreducible_factors,
     over_parameters,
     rational_number,
 )
@@ -44,8 +46,8 @@ from kovacic.reading.read import read_input
 
 _CLASSES = {
     "integer": INTEGERS,
-    "even": Classes.of([0], 2),
-    "odd": Classes.of([1], 2),
+    "even": EVEN,
+    "odd": ODD,
     "half-integer": Classes.of([Fraction(1, 2)], 1),
 }
 #: Words for signs, as the relations that they abbreviate.
@@ -59,8 +61,8 @@ _UNEQUAL = re.compile(rf"!=({_RATIONAL})")
 COMPARED_BITS = 512
 #: SymPy's names for the numbers on one side of 0, without 0 and with it.
 _SIGNS = {1: ("positive", "nonnegative"), -1: ("negative", "nonpositive")}
-#: The words that SymPy uses, too; signs follow from the bounds.
-_NAMED = {*WORDS} - {*INEQUALITIES, "half-integer"}
+#: What SymPy calls a kind of number; signs follow from the bounds.
+_NAMED = {word: (word,) for word in WORDS if word not in INEQUALITIES} | {"half-integer": ("rational", "noninteger")}
 
 
 @dataclass(frozen=True)
@@ -134,10 +136,6 @@ class Known:
         by_strength = sorted(known, key=lambda one: (one.sign * one.end, one.strict))
         return tuple({one.sign: one for one in (*known, *by_strength)}.values())  # the last one of each sign
 
-    @property
-    def nonzero(self) -> bool:
-        return not self.admits_number(Fraction(0))
-
     def admits_number(self, number: Fraction) -> bool:
         """True unless it provably differs from this rational number."""
         if self.rational is False or number in self.excluded:
@@ -173,20 +171,17 @@ class Known:
 
     def may_be_among(self, numbers: Classes) -> bool:
         """False if it provably is none of these numbers."""
-        if not all(map(numbers.meet, self.classes)):
+        if self.rational is False or not all(map(numbers.meet, self.classes)):
             return False
-        if self.rational is False or ("noninteger" in self.words and numbers.are_covered_by(INTEGERS)):
+        if "noninteger" in self.words and numbers.are_covered_by(INTEGERS):
             return False
-        ends = {bound.sign: bound.end for bound in self.bounds}
-        if len(ends) < 2:
+        modulus = numbers.modulus
+        periods = {bound.sign: floor(bound.end / modulus) for bound in self.bounds}
+        if len(periods) < 2 or periods[-1] - periods[1] > MOST_TRIALS:
             return True
-        tried: list[Fraction] = []  # the numbers between the bounds
-        for residue in numbers.residues:
-            first, last = ((ends[sign] - residue) / numbers.modulus for sign in (1, -1))
-            if last - first > MOST_TRIALS:
-                return True
-            tried += [residue + k * numbers.modulus for k in range(ceil(first), floor(last) + 1)]
-        return any(map(self.admits_number, tried))
+        # The numbers between the bounds.
+        tried = product(range(periods[1], periods[-1] + 1), numbers.residues)
+        return any(self.admits_number(k * modulus + residue % modulus) for k, residue in tried)
 
     def is_contradiction(self) -> bool:
         """True if provably no number is left: two kinds of numbers, or bounds, exclude one another."""
@@ -200,9 +195,7 @@ class Known:
 
     def sympy_properties(self) -> list[str]:
         """The properties for which SymPy has names, among them the sign that follows from the bounds."""
-        words = [word for word in self.words if word in _NAMED]
-        if "half-integer" in self.words:
-            words += ["rational", "noninteger"]
+        words = [*chain.from_iterable(_NAMED.get(word, ()) for word in self.words)]
         for bound in self.bounds:
             if bound.sign * bound.end >= 0:  # beyond zero
                 strict, weak = _SIGNS[bound.sign]
@@ -217,7 +210,7 @@ def words_of(symbol: Any) -> list[str]:
     if symbol.is_integer is False and "irrational" not in words:
         words.append("noninteger")
     words += [word for word in INEQUALITIES if getattr(symbol, f"is_{word}")][:1]
-    if symbol.is_zero is False and not Known(tuple(words)).nonzero:
+    if symbol.is_zero is False and Known(tuple(words)).admits_number(Fraction(0)):
         words.append("nonzero")
     return words
 
@@ -303,38 +296,34 @@ class Assumptions:
         """Whether the value of a form is one of the numbers: True (always), False (never) or None."""
         value = self.value_of(form)
         if value is not None:
-            number = rational_number(value)
-            return number is not None and numbers.contains(number)
+            return numbers.has(value)
         values = self._class_of(form)
         if values is not None and values.are_covered_by(numbers):
             return True
-        if self.is_irrational(form) or (values is not None and not values.meet(numbers)):
-            return False
         linear = linear_of(form)
-        if (
-            linear is None
-            or linear.parameter is None
-            or self.of(linear.parameter).may_be_among(linear.solutions(numbers))
-        ):
-            return None
-        return False
+        if linear is not None and linear.parameter is not None:
+            is_possible = self.of(linear.parameter).may_be_among(linear.solutions(numbers))
+        else:
+            is_possible = not self.is_irrational(form) and (values is None or values.meet(numbers))
+        return None if is_possible else False
 
     def vanishes(self, function: FunctionPoly) -> bool | None:
         """Whether the function vanishes: True (always), False (never) or None."""
         value = self.value_of(function)
         if value is not None:
             return not value
-        above = numerator(function)
-        linear = linear_of(above)
-        values = self._class_of(function)
-        nowhere_zero = self.is_irrational(function) or (values is not None and not values.contains(Fraction(0)))
+        return False if all(map(self._is_nonzero, irreducible_factors(function))) else None
+
+    def _is_nonzero(self, factor: FunctionPoly) -> bool:
+        """True if an irreducible polynomial provably vanishes nowhere."""
+        linear = linear_of(factor)
         if linear is not None and linear.parameter is not None:
             (root,) = linear.solutions(INTEGERS).residues  # where the value is 0
-            nowhere_zero = nowhere_zero or not self.of(linear.parameter).admits_number(root)
-        if len(above.num) == 1:  # a product of powers of parameters
-            nowhere_zero = nowhere_zero or all(self.of(name).nonzero for name in parameters_in(function))
-        nowhere_zero = nowhere_zero or self.is_positive(above) or self.is_positive(-above)
-        return False if nowhere_zero else None
+            return not self.of(linear.parameter).admits_number(root)
+        values = self._class_of(factor)
+        if self.is_irrational(factor) or (values is not None and not values.contains(Fraction(0))):
+            return True
+        return self.is_positive(factor) or self.is_positive(-factor)
 
     def value_of(self, function: FunctionPoly) -> Poly | None:
         """The value of a function of the parameters that have a value; None for any other."""

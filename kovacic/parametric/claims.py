@@ -133,6 +133,14 @@ def rational_number(constant: Poly) -> Fraction | None:
     return constant.field.rational_value(constant)
 
 
+def without_parameters(polynomial: Poly) -> Poly | None:
+    """The polynomial over Q, or over its number field; None if a coefficient has parameters."""
+    if polynomial.field.ground == QQ:
+        return polynomial
+    known = [value for value in map(rational_number, polynomial) if value is not None]
+    return QQ.poly(known) if len(known) == polynomial.degree + 1 else None
+
+
 def laurent_constant_term(function: Poly) -> Fraction:
     """The constant term of the Laurent series at 0 of a function of the parameters."""
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
@@ -199,16 +207,45 @@ class Classes:
 
     @classmethod
     def of(cls, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Classes:
-        return cls(tuple(map(Fraction, residues)), Fraction(modulus))
+        """The classes in order, with the least modulus: k of them modulo m are fewer ones modulo m/k if possible."""
+        known = {Fraction(residue) % modulus for residue in residues}
+        for k in range(len(known), 1, -1):
+            fewer = {residue % Fraction(modulus, k) for residue in known}
+            if len(fewer) * k == len(known):
+                return cls(tuple(sorted(fewer)), Fraction(modulus, k))
+        return cls(tuple(sorted(known)), Fraction(modulus))
 
     def contains(self, number: Fraction) -> bool:
         if self.least is not None and number < self.least:
             return False
         return any((number - residue) % self.modulus == 0 for residue in self.residues)
 
+    def has(self, constant: Poly) -> bool:
+        """True if the constant is one of the numbers."""
+        number = rational_number(constant)
+        return number is not None and self.contains(number)
+
+    def roots_of(self, polynomial: Poly) -> Iterator[Fraction]:
+        """The numbers that are roots of a polynomial over Q or an extension of it."""
+        return filter(self.contains, rational_roots(polynomial))
+
+    def has_root_of(self, polynomial: Poly) -> bool | None:
+        """True if one of the numbers is a root, False if none is, None if the polynomial contains parameters."""
+        known = without_parameters(polynomial)
+        return None if known is None else next(self.roots_of(known), None) is not None
+
     def modulo(self, multiple: Fraction) -> list[Fraction]:
         """The residues modulo a multiple of the modulus."""
         return [residue + k * self.modulus for residue in self.residues for k in range(int(multiple / self.modulus))]
+
+    def moved(self, factor: Fraction | int, shift: Fraction | int) -> Classes:
+        """The classes of factor * number + shift."""
+        return Classes.of((factor * residue + shift for residue in self.residues), abs(Fraction(factor)) * self.modulus)
+
+    def joined(self, other: Classes) -> Classes:
+        """The numbers that are in one of them."""
+        common = common_multiple(self.modulus, other.modulus)
+        return Classes.of(self.modulo(common) + other.modulo(common), common)
 
     def meet(self, other: Classes) -> bool:
         """True if a number is in both, bounds aside."""
@@ -221,6 +258,8 @@ class Classes:
 
 
 INTEGERS = Classes.of([0], 1)
+EVEN = Classes.of([0], 2)
+ODD = Classes.of([1], 2)
 NATURALS = Classes((Fraction(0),), Fraction(1), 0)
 
 
@@ -297,8 +336,7 @@ class InClasses(Claim):
     numbers: Classes
 
     def _holds(self, point: ParameterPoint) -> bool:
-        number = rational_number(point.at(self.form))
-        return number is not None and self.numbers.contains(number)
+        return self.numbers.has(point.at(self.form))
 
 
 @dataclass(frozen=True)
@@ -345,19 +383,17 @@ class IntegerFamily(ForInteger):
     def along(self, line: FunctionPoly, numbers: Classes) -> IntegerFamily:
         """The family after the substitution of line(n) for n, n among other numbers, with the poles that may occur then."""
         moved = [replace(pole, root=(pole.root - line[0]) / line[1]) for pole in self.poles]
-        possible = (p for p in moved if (number := rational_number(p.root)) is None or numbers.contains(number))
+        possible = (pole for pole in moved if rational_number(pole.root) is None or numbers.has(pole.root))
         return replace(self, value=self.value(RatFunc(line)), numbers=numbers, poles=tuple(possible))
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         """The solutions n of value(n) = parameter, and the poles at which the condition holds."""
-        for zero in self.poles:
-            number = rational_number(point.at(zero.root))
-            if number is not None and self.numbers.contains(number) and not point.at(zero.zero):
-                yield number
+        for pole in self.poles:
+            if not point.at(pole.zero):
+                yield from self.numbers.roots_of(point.field.poly([0, 1]) - point.at(pole.root))
         above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
-        for number in rational_roots(above - below * point.values[point.names.index(self.parameter)]):
-            if self.numbers.contains(number) and below(point.field.poly([number])):
-                yield number
+        numbers = self.numbers.roots_of(above - below * point.values[point.names.index(self.parameter)])
+        yield from (number for number in numbers if below(point.field.poly([number])))
 
 
 @dataclass(frozen=True)
@@ -368,7 +404,7 @@ class EquationFor(ForInteger):
     numbers: Classes
 
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
-        return filter(self.numbers.contains, rational_roots(point.at(self.equation)))
+        return self.numbers.roots_of(point.at(self.equation))
 
 
 def rational_roots(polynomial: Poly) -> list[Fraction]:
@@ -383,15 +419,12 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
 
 def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:
     """The squarefree polynomial over the field whose roots are the constant plus sums of +- the square roots."""
-    return reduce(with_signed_root, squares, field.poly([0, 1]) - constant)
-
-
-def with_signed_root(total: Poly, square: Poly) -> Poly:
-    """The squarefree polynomial whose roots are those of `total` plus and minus the square root."""
-    field = total.field
-    root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
-    total = norm(total(root.field.poly([0, 1]) + root))
-    return total // total.gcd(total.derivative())
+    total = field.poly([0, 1]) - constant
+    for square in squares:
+        root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
+        total = norm(total(root.field.poly([0, 1]) + root))
+        total = total // total.gcd(total.derivative())
+    return total
 
 
 # ------------------------------------------------------------------------------- natural numbers that exponents allow
@@ -425,14 +458,12 @@ class Numbers:
     def equation(self, multiples: Sequence[int]) -> FunctionPoly:
         """The polynomial over the base, or a multiple, whose roots are constant + sums of +- k times a root for these k."""
         squares = [k * k * root.square for k, root in zip(multiples, self.roots, strict=True) if k]
-        total = self.base.poly([0, 1]) - self.constant
-        if self.field != self.base:  # the square at one point is conjugate to that at the other
-            conjugate = [square for square in squares if any(square.parts[1:])]
-            squares = [square.parts[0] for square in squares if square not in conjugate]
-            sums = signed_sums(conjugate, self.constant, self.field)
-            first, second = sums.parts
-            total = norm(sums) if second else first
-        return over_parameters(reduce(with_signed_root, squares, total))
+        total = signed_sums(squares, self.constant, self.field)
+        if self.field != self.base:
+            assert isinstance(total, ExtensionPoly)
+            first, second = total.parts  # 0 if the square at one point occurs together with its conjugate
+            total = norm(total) if second else first
+        return over_parameters(total)
 
     @property
     def squares(self) -> list[FunctionPoly]:
@@ -457,7 +488,7 @@ class DegreeBySum(ForInteger):
     def numbers_at(self, point: ParameterPoint) -> Iterator[Fraction]:
         for multiples in self.sums.choices:
             if any(multiples) or self.has_zero:
-                yield from filter(NATURALS.contains, rational_roots(point.at(self.sums.equation(multiples))))
+                yield from NATURALS.roots_of(point.at(self.sums.equation(multiples)))
 
 
 @dataclass(frozen=True)

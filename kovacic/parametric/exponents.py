@@ -115,7 +115,7 @@ def _minor_conditions(images: Sequence[FunctionPoly], surface: Any) -> RankCondi
     deficient = smaller.eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
-    has_one_parameter = surface is None and len(field.names) == 1
+    has_one_parameter = len(field.names) == 1  # on a surface there are two
     most = 1 if has_one_parameter else MOST_TRIALS
     # If columns would have to be chosen, too, or rows in too many ways.
     if rank < len(rows[0]) or comb(len(rows), rank) > most:
@@ -389,18 +389,14 @@ class PossibleExponents:
     parts: list[list[LocalPart]]
 
 
-def is_too_large(field: Field) -> bool:
-    """True for a hypersurface of so high a degree that no exponents are looked for."""
-    return field.ground != QQ and field.absolute_degree > _LARGEST_SURFACE_DEGREE
-
-
 def exponent_choices(problem: Problem) -> PossibleExponents | None:
     """The choices, which differ by the sign of a root: the exponent difference, or the root of a leading coefficient.
 
     None if there are too many, or they need too large an extension.
     """
     points = sum(place.degree for place in singular_places(problem))
-    if is_too_large(problem.field) or 2**points > MOST_TRIALS:
+    is_too_large = problem.field.ground != QQ and problem.field.absolute_degree > _LARGEST_SURFACE_DEGREE
+    if is_too_large or 2**points > MOST_TRIALS:
         return None
     largest = problem.budget.limits.constants * problem.field.absolute_degree
     split = problem  # over an extension over which its singular points are rational

@@ -15,7 +15,7 @@ of the value, or on a hypersurface of the other parameters, whatever n is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, reduce
@@ -28,14 +28,15 @@ from typing import NamedTuple
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
 from kovacic.equation import ENERGY
 from kovacic.limits import MOST_TRIALS
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import Assumptions
+from kovacic.parametric.assumptions import Assumptions, linear_of
 from kovacic.parametric.claims import (
+    EVEN,
     INTEGERS,
     NATURALS,
+    ODD,
     AllOf,
     AnyOf,
     Claim,
@@ -48,7 +49,6 @@ from kovacic.parametric.claims import (
     IsZero,
     ParameterPoint,
     SumOfRoots,
-    common_multiple,
     degrees,
     denominator,
     irreducible_factors,
@@ -58,11 +58,10 @@ from kovacic.parametric.claims import (
     over_parameters,
     polynomial_factors,
     powers_of,
-    rational_number,
-    rational_roots,
     roots,
     scaled_form,
     with_free_generator,
+    without_parameters,
 )
 from kovacic.parametric.formulas import shortest_form
 from kovacic.parametric.restriction import everywhere, with_free_constant
@@ -76,15 +75,10 @@ class Stratum(NamedTuple):
     rest: FunctionPoly
 
 
-class IntegerCondition(NamedTuple):
-    """A claim, and the strata on which it has to be stated of another equation."""
-
-    claim: Claim
-    strata: tuple[Stratum, ...] = ()
-
-
+#: A claim, and the strata on which it has to be stated of another equation.
+IntegerCondition = tuple[Claim, Sequence[Stratum]]
 #: f(n; t) = 0 for a parameter t: it is a function of n, or free at one of the family's poles or on one of the strata.
-SolvedForParameter = tuple[IntegerFamily, tuple[Stratum, ...]]
+SolvedForParameter = tuple[IntegerFamily, Sequence[Stratum]]
 
 
 def solve_for(name: str, equation: FunctionPoly, letter: str, setting: Setting) -> SolvedForParameter | None:
@@ -115,7 +109,7 @@ def solve_for(name: str, equation: FunctionPoly, letter: str, setting: Setting) 
     value = -RatFunc(rest, slope)
     if known.constant.names:  # without the constant in denominators: sqrt(2), not 2/sqrt(2)
         value = with_free_constant(everywhere(equation.field, known.constant).restricted(value)).shown
-    return IntegerFamily(letter, name, value, INTEGERS, tuple(poles)), tuple(strata)
+    return IntegerFamily(letter, name, value, INTEGERS, tuple(poles)), strata
 
 
 def all_solved(equation: FunctionPoly, letter: str, setting: Setting) -> list[SolvedForParameter]:
@@ -129,11 +123,11 @@ def all_solved(equation: FunctionPoly, letter: str, setting: Setting) -> list[So
 
 def integer_condition(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
     """The condition that one of the numbers is a root of a polynomial in N over Q(t): a spectrum, square roots, or both."""
-    spectrum = _spectrum(equation, numbers, letter, setting)
+    spectrum, strata = _spectrum(equation, numbers, letter, setting)
     sums = _roots_as_sum(equation, numbers, setting.assumptions.constant)
-    if sums is None or (isinstance(spectrum.claim, IntegerFamily) and (len(sums.squares) < 2 or not spectrum.strata)):
-        return spectrum
-    return IntegerCondition(sums)
+    if sums is None or (isinstance(spectrum, IntegerFamily) and (len(sums.squares) < 2 or not strata)):
+        return spectrum, strata
+    return sums, ()
 
 
 def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Setting) -> IntegerCondition:
@@ -150,9 +144,8 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
             # Of n and -n the one with f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis write it.
             above, below = (part(Fraction(1)) for part in (family.value.num, family.value.den))
             is_numbered_otherwise = not below or above != below
-            found.append((cost, is_numbered_otherwise, IntegerCondition(family, strata)))
-    equation_for = IntegerCondition(EquationFor(letter, equation, numbers))
-    return min(found, key=lambda one: one[:2])[2] if found else equation_for
+            found.append((cost, is_numbered_otherwise, (family, strata)))
+    return min(found, key=lambda one: one[:2])[2] if found else (EquationFor(letter, equation, numbers), ())
 
 
 def _integer_choices(equation: FunctionPoly, family: IntegerFamily, numbers: Classes) -> Iterator[IntegerFamily]:
@@ -215,9 +208,9 @@ def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Settin
     parts = list[Claim]()
     where: dict[FunctionPoly, list[FunctionPoly]] = {}
     for equation in equations:
-        solved = _spectrum(equation, NATURALS, letter, setting)
-        parts.append(solved.claim)
-        for zero, rest in solved.strata:
+        claim, strata = _spectrum(equation, NATURALS, letter, setting)
+        parts.append(claim)
+        for zero, rest in strata:
             possible_there = (one for one in irreducible_factors(rest) if one.degree > 0 and may_be_natural(one))
             where.setdefault(zero, []).extend(possible_there)
     parts += [AllOf((natural_root(rests, letter, setting), IsZero(zero))) for zero, rests in where.items() if rests]
@@ -226,8 +219,7 @@ def natural_root(equations: Sequence[FunctionPoly], letter: str, setting: Settin
 
 def may_be_natural(factor: Poly) -> bool:
     """True if an irreducible polynomial over Q(t) may have a natural root for some values of the parameters."""
-    numbers = without_parameters(factor)
-    return numbers is None or any(map(NATURALS.contains, rational_roots(numbers)))
+    return NATURALS.has_root_of(factor) is not False
 
 
 #: Names for integers, of which the first that isn't a parameter is used.
@@ -236,56 +228,42 @@ INTEGER_LETTERS = "nNmMkKjJ"
 
 @dataclass(frozen=True)
 class Congruence(Statement):
-    """`equation`, a polynomial in N over Q(t), has a rational root N congruent to one of `residues` modulo `modulus`.
+    """`equation`, a polynomial in N over Q(t), has a rational root N that is one of the `numbers`.
 
-    The numbers are integers but for degree 1.
+    These are integers but for degree 1.
     """
 
     equation: FunctionPoly
-    residues: tuple[Fraction, ...]
-    modulus: Fraction
+    numbers: Classes
     setting: Setting = field(default=Setting(), compare=False)
 
     @classmethod
-    def make(cls, equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Congruence:
-        """The congruence normalised by N -> a N + b, with the least modulus.
+    def make(cls, equation: FunctionPoly, numbers: Classes) -> Statement:
+        """The congruence normalised by N -> a N + b; ALWAYS or NEVER for an equation without parameters.
 
         A form gets no constant term (in a Laurent series at 0) and coprime coefficients; for higher degrees the constant term
         of the mean of the roots comes into (-1, 0], and the classes are symmetric about it if the equation is.  Equations that
         differ by N -> +-N + b with an integer b become the same.
         """
-        classes = {*map(Fraction, residues)}
-        m = Fraction(modulus)
+        truth = numbers.has_root_of(equation)
+        if truth is not None:
+            return ALWAYS if truth else NEVER
         k = equation.degree
+        N = equation.field.poly([0, 1])
         if k == 1:
             form, scale, offset = scaled_form(-equation[0] / equation[1])  # the root N = form/scale + offset
-            scaled = {(residue - offset) * scale for residue in classes}
-            return cls._with_least_modulus(form.field.poly([0, 1]) - form, scaled, abs(m * scale))
-        Z = equation.field.poly([0, 1])
+            return cls(over_parameters(N - form), numbers.moved(scale, -offset * scale))
         mean = laurent_constant_term(-equation[k - 1] / (k * equation.lc))
-        forms: list[tuple[Fraction, str, FunctionPoly, set[Fraction]]] = []
-        for sign in (1, -1):  # Z = sign N - shift brings the mean into (-1, 0], as far from 0 as possible
+        forms: list[tuple[Fraction, str, FunctionPoly, Classes]] = []
+        for sign in (1, -1):  # sign N - shift brings the mean into (-1, 0], as far from 0 as possible
             shift = ceil(sign * mean)
-            moved = over_parameters(equation((Z + shift) * sign) * sign**k)
-            forms.append((shift - sign * mean, str(moved), moved, {sign * residue - shift for residue in classes}))
-        distance, _, moved, moved_classes = max(forms, key=lambda form: form[:2])
+            moved = over_parameters(equation((N + shift) * sign) * sign**k)
+            forms.append((shift - sign * mean, str(moved), moved, numbers.moved(sign, -shift)))
+        distance, _, moved, classes = max(forms, key=lambda form: form[:2])
         twice = -2 * distance
-        is_symmetric = twice.denominator == 1 and moved(twice - Z) == (-1) ** k * moved
-        if is_symmetric:
-            moved_classes |= {twice - residue for residue in moved_classes}
-        return cls._with_least_modulus(moved, moved_classes, m)
-
-    @classmethod
-    def _with_least_modulus(cls, equation: FunctionPoly, classes: Iterable[Fraction], modulus: Fraction) -> Congruence:
-        """With k classes modulo m as one modulo m/k if possible, m/k an integer if the numbers are integers."""
-        known = {residue % modulus for residue in classes}
-        for k in range(len(known), 1, -1):
-            if equation.degree != 1 and modulus % k != 0:
-                continue
-            fewer = {residue % (modulus / k) for residue in known}
-            if len(fewer) * k == len(known):
-                return cls(equation, tuple(sorted(fewer)), modulus / k)
-        return cls(equation, tuple(sorted(known)), modulus)
+        if twice.denominator == 1 and moved(twice - N) == (-1) ** k * moved:
+            classes = classes.joined(classes.moved(-1, twice))
+        return cls(moved, classes)
 
     @property
     def equations(self) -> tuple[FunctionPoly, ...]:
@@ -296,39 +274,27 @@ class Congruence(Statement):
         """The form that is congruent to one of the numbers; None for an equation of higher degree."""
         return -self.equation[0] if self.equation.degree == 1 else None
 
-    @property
-    def numbers(self) -> Classes:
-        """The numbers of which N has to be one."""
-        return Classes(self.residues, self.modulus)
-
     def _holds(self, point: ParameterPoint) -> bool:
-        return self.holds_for(point.at(self.equation)) is True
-
-    def holds_for(self, equation: Poly) -> bool | None:
-        """True if the equation has one of the numbers as a root, False if not; None if it contains parameters."""
-        numbers = without_parameters(equation)
-        return None if numbers is None else any(map(self.numbers.contains, rational_roots(numbers)))
+        return self.numbers.has_root_of(point.at(self.equation)) is True
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        return integer_roots(change(self.equation), self.residues, self.modulus)
+        return integer_roots(change(self.equation), self.numbers)
 
     def sample(self, random: Random) -> list[FunctionPoly]:
-        N = random.choice(self.residues) + random.randint(-4, 4) * self.modulus
+        N = random.choice(self.numbers.residues) + random.randint(-4, 4) * self.numbers.modulus
         return [over_parameters(self.equation(N))]
 
-    def merged(self, other: Statement) -> Congruence | None:
+    def merged(self, other: Statement) -> Statement | None:
         if not isinstance(other, Congruence) or other.equation != self.equation:
             return None
-        common = common_multiple(self.modulus, other.modulus)
-        made = Congruence.make(self.equation, self.numbers.modulo(common) + other.numbers.modulo(common), common)
-        return replace(made, setting=self.setting)
+        return Congruence.make(self.equation, self.numbers.joined(other.numbers)).avoiding(self.setting)
 
     def _truth(self, assumptions: Assumptions) -> bool | None:
         if self.form is not None:
             return assumptions.meets_classes(self.form, self.numbers)
         value = assumptions.value_of(self.equation)
         if value is not None:
-            return self.holds_for(value)
+            return self.numbers.has_root_of(value)
         # f(0) is irrational, and f(n) - f(0) rational.
         start = self.equation[0]
         is_irrational = assumptions.is_irrational(start) and without_parameters(self.equation - start) is not None
@@ -339,7 +305,7 @@ class Congruence(Statement):
         known = reduced_statement(self, self._truth(assumptions))
         if self.form is None or known is not self:
             return known
-        largest = lcm(self.modulus.denominator, *(residue.denominator for residue in self.residues))
+        largest = lcm(*(number.denominator for number in (self.numbers.modulus, *self.numbers.residues)))
         values = at_integers(self.form, largest, assumptions)
         return self if values is None else either(*(here for here, value in values if self.numbers.contains(value)))
 
@@ -354,20 +320,18 @@ class Congruence(Statement):
     def claim(self) -> Claim:
         if self.form is None:
             return self._solved(self.equation, self.numbers)
-        if len(self.residues) == 1:
+        if len(self.numbers.residues) == 1:
             return self._one_class(self.form)
         return InClasses(self.form, self.numbers)
 
     def _solved(self, equation: FunctionPoly, numbers: Classes) -> Claim:
         """The claim for an equation for an integer, with that for strata on which the solved parameter is free."""
-        found = integer_condition(equation, numbers, self.letter, self.setting)
-        there = (
-            all_of((Vanishes(zero), integer_roots(rest, numbers.residues, numbers.modulus)))
-            for zero, rest in found.strata
-        )
-        claims = [found.claim, *(one.avoiding(self.setting).claim for one in there if one != NEVER)]
-        claim = claims[0] if len(claims) == 1 else AnyOf(tuple(claims))
-        if not isinstance(found.claim, IntegerFamily):
+        claim, strata = integer_condition(equation, numbers, self.letter, self.setting)
+        is_solved = isinstance(claim, IntegerFamily)
+        there = (all_of((Vanishes(zero), integer_roots(rest, numbers))) for zero, rest in strata)
+        elsewhere = [one.avoiding(self.setting).claim for one in there if one != NEVER]
+        claim = AnyOf((claim, *elsewhere)) if elsewhere else claim
+        if not is_solved:
             return claim
         # Solving for a parameter cleared the denominators, whose zeros are excluded unless earlier regions contain them.
         below = irreducible_factors(denominator(equation))
@@ -378,20 +342,18 @@ class Congruence(Statement):
 
     def _one_class(self, form: FunctionPoly) -> Claim:
         """The claim that a form is congruent to one number."""
-        (residue,) = self.residues
-        modulus = self.modulus
-        below = modulus.denominator
-        multiple = form * below
-        remainder = residue * below
-        if modulus.numerator == 1:
-            return InClasses(multiple - remainder, INTEGERS)
-        if modulus.numerator == 2 and remainder.denominator == 1:
-            return InClasses(multiple, Classes.of([remainder], 2))
+        (residue,) = self.numbers.residues
+        below = self.numbers.modulus.denominator
+        whole = self.numbers.moved(below, 0)
+        if whole.modulus == 1:
+            return InClasses((form - residue) * below, INTEGERS)
+        if whole in (EVEN, ODD):
+            return InClasses(form * below, whole)
         scale = lcm(residue.denominator, below)
         equation = form * scale - form.field.poly([0, 1])
         has_several_parameters = sum(map(bool, degrees(equation))) > 1
         if has_several_parameters and all_solved(equation, self.letter, self.setting):
-            return self._solved(equation, Classes.of([residue * scale], modulus * scale))
+            return self._solved(equation, self.numbers.moved(scale, 0))
         return InClasses(form, self.numbers)
 
 
@@ -401,24 +363,18 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
     Here t is an integer parameter, and c isn't 0.  The denominator at t is that of c t + d divided by a divisor of a d - b c.
     None for any other form, and if there may be too many values.
     """
-    used = [k for k, degree in enumerate(map(int, (form.num * form.den).degrees())) if degree]
-    if len(used) != 1:
+    above, below = linear_of(numerator(form)), linear_of(denominator(form))
+    if above is None or below is None or below.parameter is None or not above.factors.keys() <= below.factors.keys():
         return None
-    (k,) = used  # variable number k is parameter number k - 1
-    t = form.field.generator(form.field.names[k - 1])
-    if not assumptions.meets_classes(t, INTEGERS):
+    t = form.field.generator(below.parameter)
+    a, b, c, d = (
+        number for part in (above, below) for number in (part.factors.get(below.parameter, Fraction(0)), part.constant)
+    )
+    end = int((largest * abs(a * d - b * c) + abs(d)) / abs(c))
+    if end > MOST_TRIALS or not assumptions.meets_classes(t, INTEGERS):
         return None
-    above, below = ({int(e[k]): int(c) for e, c in part.to_dict().items()} for part in (form.num, form.den))
-    if max(below) != 1 or max(above) > 1:
-        return None
-    a, b, c, d = (part.get(power, 0) for part in (above, below) for power in (1, 0))
-    most = largest * abs(a * d - b * c)
-    end = (most + abs(d)) // abs(c)
-    if end > MOST_TRIALS:
-        return None
-    values = {n: Fraction(a * n + b, c * n + d) for n in range(-end, end + 1) if c * n + d}
-    places = ((Vanishes(t - n), value) for n, value in values.items() if value.denominator <= largest)
-    return [(here, value) for here, value in places if here.under(assumptions) != NEVER]
+    values = ((Vanishes(t - n), (a * n + b) / (c * n + d)) for n in range(-end, end + 1) if c * n + d)
+    return [(n, value) for n, value in values if value.denominator <= largest and n.under(assumptions) != NEVER]
 
 
 def free_letter(names: Collection[str], preferred: str = INTEGER_LETTERS) -> str:
@@ -426,22 +382,6 @@ def free_letter(names: Collection[str], preferred: str = INTEGER_LETTERS) -> str
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
-def integer_roots(equation: FunctionPoly, residues: Iterable[Fraction | int], modulus: Fraction | int) -> Statement:
-    """The statement that a polynomial in N over Q(t) has a rational root in these classes (integer unless the degree is 1)."""
-    classes = {r % modulus for r in residues}
-    statements = list[Statement]()
-    for factor in polynomial_factors(equation):
-        numbers = without_parameters(factor)
-        if numbers is None:
-            statements.append(Congruence.make(factor, classes, modulus))
-        elif any(root % modulus in classes for root in rational_roots(numbers)):
-            return ALWAYS
-    return either(*statements)
-
-
-def without_parameters(polynomial: Poly) -> Poly | None:
-    """The polynomial over Q, or over its number field; None if a coefficient has parameters."""
-    if polynomial.field.ground == QQ:
-        return polynomial
-    known = [value for value in map(rational_number, polynomial) if value is not None]
-    return QQ.poly(known) if len(known) == polynomial.degree + 1 else None
+def integer_roots(equation: FunctionPoly, numbers: Classes) -> Statement:
+    """The statement that a polynomial in N over Q(t) has one of the numbers as a root, integers unless its degree is 1."""
+    return either(*(Congruence.make(factor, numbers) for factor in polynomial_factors(equation)))

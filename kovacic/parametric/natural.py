@@ -45,8 +45,8 @@ from kovacic.parametric.claims import (
     irreducible_factors,
     over_parameters,
     polynomial_factors,
-    rational_roots,
     union,
+    without_parameters,
 )
 from kovacic.parametric.exponents import (
     NOT_COMPUTED,
@@ -56,11 +56,10 @@ from kovacic.parametric.exponents import (
     conditions_of_degree,
     degrees_of_solutions,
     form_conditions,
-    is_too_large,
     zeros_of_forms,
 )
 from kovacic.parametric.formulas import expanded_form, in_sum
-from kovacic.parametric.integers import free_letter, natural_root, without_parameters
+from kovacic.parametric.integers import free_letter, natural_root
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
@@ -136,8 +135,8 @@ class Natural(Statement):
 
     def numbers_at(self, point: ParameterPoint) -> list[int]:
         """The natural numbers that the listed exponents allow at a point."""
-        roots = chain.from_iterable(rational_roots(point.at(factor)) for factor in self.factors or ())
-        return sorted(map(int, {*filter(NATURALS.contains, roots)}))
+        roots = chain.from_iterable(NATURALS.roots_of(point.at(factor)) for factor in self.factors or ())
+        return sorted(map(int, {*roots}))
 
     def _holds(self, point: ParameterPoint) -> bool:
         """True if the rank of a system at the point says so."""
@@ -167,11 +166,11 @@ class Natural(Statement):
 
     def solutions(self, variable: str, number: int | None) -> tuple[PolynomialSolution, ...]:
         """Solutions with a P of this degree, for each way in which the exponents give it and P can exist."""
-        if number is None or self.m > 1:
+        if number is None:
             return ()
         found: dict[PolynomialSolution | None, None] = {}
         for exponents, surface, S in self.given(number):
-            if surface.curve or is_too_large(S.field):
+            if surface.curve:
                 continue
             for choice in choices_of_degree(analyse(S, Budget()), number) or ():
                 # The equations for P may exclude one another: b = 6 and b = 9/2.
@@ -199,13 +198,9 @@ class Natural(Statement):
         if not self.factors:
             return []
         factor = random.choice(self.factors)
-        number = random.randint(0, DEFAULT_DEGREE)
-        numbers = without_parameters(factor)
-        if numbers is not None:
-            naturals = [*filter(NATURALS.contains, rational_roots(numbers))]
-            if not naturals:
-                return []
-            number = int(naturals[0])
+        constant = without_parameters(factor)
+        known = [] if constant is None else NATURALS.roots_of(constant)
+        number = int(next(iter(known), random.randint(0, DEFAULT_DEGREE)))
         # For invariants the numbers of zeros are enough.
         found = [one for one in self.determinants(number) if one.factors or one.system] if self.m == 1 else []
         if not found:
@@ -252,12 +247,12 @@ def _determinants(statement: Natural, number: int) -> tuple[Determinant, ...]:
     found: dict[Determinant, None] = {}
     for exponents, surface, S in statement.given(number):
         has_free_constant = bool(statement.constant.names and exponents) and isinstance(surface.field, AlgebraicField)
-        if statement.m == 1 and (has_free_constant or is_too_large(S.field)):
-            choices = [NOT_COMPUTED]
-        elif S.field.ground == QQ:  # no parameter is left
+        if S.field.ground == QQ:  # no parameter is left
             choices = [RankConditions(deficient=_exists(S, statement.m, (number,)))]
         elif statement.m > 1:
             choices = [form_conditions(analyse(S, Budget()), statement.m)]
+        elif has_free_constant:
+            choices = [NOT_COMPUTED]
         else:
             choices = conditions_of_degree(analyse(S, Budget()), number)
         for conditions in choices:

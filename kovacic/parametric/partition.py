@@ -57,8 +57,8 @@ from kovacic.parametric.claims import (
     powers_of,
     rational_number,
     union,
+    without_parameters,
 )
-from kovacic.parametric.integers import without_parameters
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import (
     Limited,
@@ -299,10 +299,10 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
         if structure.case == 3:  # an invariant of degree 12 leaves the group open
             verdict = replace(verdict, family="binary tetrahedral, octahedral or icosahedral")
         origin = None
-        if isinstance(statement, Natural):
-            origin = partial(statement.solutions, settings.variable)
-        else:
+        if not isinstance(statement, Natural):
             theory = theory.also("; half-integers: Treibich & Verdier", "TV90")
+        elif is_reducible:
+            origin = partial(statement.solutions, settings.variable)
         regions.append(ParameterRegion(statement, verdict, origin=origin))
     return Partition.of(theory, regions, expected, complete)
 

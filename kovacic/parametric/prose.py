@@ -15,7 +15,9 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.parametric.claims import (
+    EVEN,
     INTEGERS,
+    ODD,
     AllOf,
     AnyOf,
     Claim,
@@ -94,8 +96,8 @@ def _alternatives(formulas: Sequence[str]) -> str:
 #: Classes of integers that have a name.
 _PROSE_OF_KIND = {
     INTEGERS: "an integer",
-    Classes.of([0], 2): "an even integer",
-    Classes.of([1], 2): "an odd integer",
+    EVEN: "an even integer",
+    ODD: "an odd integer",
 }
 
 

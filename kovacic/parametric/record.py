@@ -22,7 +22,7 @@ from kovacic.equation import Change, Equation, parameters_of
 from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json, fraction
-from kovacic.parametric.claims import NO_CONSTANT, ParameterPoint, over_parameters
+from kovacic.parametric.claims import NO_CONSTANT, Classes, ParameterPoint, over_parameters
 from kovacic.parametric.integers import Congruence, free_letter
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
@@ -47,15 +47,19 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         structures = [structure.value for structure in statement.structures]
         return {"kind": "schwarz", "unknown": "Z", "squares": statement.cubic.to_str("Z"), "structures": structures}
     if isinstance(statement, Congruence):
-        residues = [*map(_json_number, statement.residues)]
-        modulus = _json_number(statement.modulus)
+        residues = [*map(_json_number, statement.numbers.residues)]
+        modulus = _json_number(statement.numbers.modulus)
         numbers: dict[str, Any] = {"modulus": modulus, "residues": residues}
         if statement.form is None:
             letter = statement.letter
             return {"kind": "integer root", "unknown": letter, "equation": statement.equation.to_str(letter), **numbers}
         if len(residues) > 1:
             return {"kind": "lattice", "form": statement.form.to_str("x"), **numbers}
-        return {"kind": "lattice", "form": (statement.form - statement.residues[0]).to_str("x"), "modulus": modulus}
+        return {
+            "kind": "lattice",
+            "form": (statement.form - statement.numbers.residues[0]).to_str("x"),
+            "modulus": modulus,
+        }
     assert isinstance(statement, Natural)
     letter = statement.letter
     x = free_letter(parameters_of(statement.S.field), "xzt")
@@ -167,10 +171,10 @@ class StatementReader:
                 return Both(parts) if kind == "and" else Either(parts)
             case "lattice":
                 equation = self.field.poly([0, 1]) - self.polynomial(data["form"])
-                return Congruence.make(equation, _residues(data), fraction(data["modulus"]))
+                return Congruence.make(equation, _numbers(data))
             case "integer root":
                 equation = self.polynomial(data["equation"], data.get("unknown", "x"))
-                return Congruence(equation, _residues(data), fraction(data["modulus"]))
+                return Congruence(equation, _numbers(data))
             case "natural number":
                 letter = data.get("unknown", "x")
                 texts = data["equations"]
@@ -192,6 +196,6 @@ class StatementReader:
         )
 
 
-def _residues(data: Mapping[str, Any]) -> tuple[Fraction, ...]:
+def _numbers(data: Mapping[str, Any]) -> Classes:
     """The classes; without residues that of 0."""
-    return tuple(map(Fraction, data.get("residues", [0])))
+    return Classes.of(data.get("residues", [0]), fraction(data["modulus"]))

@@ -363,7 +363,7 @@ def _where_possible(statement: Statement, chart: ParameterPoint) -> list[Paramet
         return reduce(lambda charts, part: within(part, charts), statement.parts, [chart])
     if isinstance(statement, Either):
         return _union((within(part, [chart]) for part in statement.parts), chart)
-    if isinstance(statement, Congruence) and statement.holds_for(chart.at(statement.equation)) is False:
+    if isinstance(statement, Congruence) and statement.numbers.has_root_of(chart.at(statement.equation)) is False:
         return []
     return _union((_where_solvable(chart.at(equation), chart) for equation in statement.equations), chart)
 

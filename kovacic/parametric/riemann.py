@@ -36,6 +36,8 @@ from kovacic.engine.places import Kind, Problem, rational_square_root
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import Assumptions
 from kovacic.parametric.claims import (
+    ODD,
+    Classes,
     ParameterPoint,
     common_multiple,
     irreducible_factors,
@@ -43,10 +45,11 @@ from kovacic.parametric.claims import (
     over_parameters,
     roots,
     scaled_form,
+    without_parameters,
 )
 from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import expanded_form, in_sum, root_written
-from kovacic.parametric.integers import Congruence, at_integers, integer_roots, squares_of_roots, without_parameters
+from kovacic.parametric.integers import at_integers, integer_roots, squares_of_roots
 from kovacic.parametric.prose import Words
 from kovacic.parametric.regions import RegionVerdict, borel, reducible
 from kovacic.parametric.statements import ALWAYS, NEVER, Statement, all_of, either
@@ -360,7 +363,7 @@ def kimura_statements(problem: Problem) -> Iterator[tuple[Structure, Statement]]
     s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
     z = over_parameters(cubic.field.poly([0, 0, 1]))
     sums = over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)  # its roots N are the four sums, up to signs
-    yield Structure.REDUCIBLE, integer_roots(sums, [1], 2)
+    yield Structure.REDUCIBLE, integer_roots(sums, ODD)
     constants = differences(cubic).constants
     always = kimura_structure(constants)
     if always is not None:
@@ -393,15 +396,15 @@ def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
         free = [factor for factor, k in powers if k + beside > 1 and without_parameters(factor) is None]
         if free:
             squares = (factor(cubic.field.poly([0, 0, _F(1, 4)])) for factor in free)
-            return either(*(integer_roots(over_parameters(square), [1], 2) for square in squares))
+            return either(*(integer_roots(over_parameters(square), ODD) for square in squares))
     return Schwarz(cubic, (structure,))
 
 
 def has_denominator(square: Poly, denominator: int) -> Statement:
     """The statement that an exponent difference with this square is rational with this denominator."""
     equation = square.field.poly([-square * denominator**2, 0, 1])
-    coprime = [r for r in range(denominator) if gcd(r, denominator) == 1]
-    return integer_roots(over_parameters(equation), coprime, denominator)
+    coprime = (r for r in range(denominator) if gcd(r, denominator) == 1)
+    return integer_roots(over_parameters(equation), Classes.of(coprime, denominator))
 
 
 def _rational_root(square: Poly) -> FunctionPoly | None:
@@ -413,30 +416,37 @@ def _rational_root(square: Poly) -> FunctionPoly | None:
 def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | None:
     """Where the irreducible equation has this structure, if the differences are lines a w + b in one w; else None.
 
-    w or its square is a rational function of the parameters.
+    w or w^2 is a rational function of the parameters.
     """
     constants = differences(cubic).constants
     free = [over_parameters(square) for square in roots(cubic) if without_parameters(square) is None]
-    rational = [scaled_form(one) for one in filter(None, map(_rational_root, free))]
-    lines = [(1 / scale, shift) for form, scale, shift in rational if form == rational[0].form]
-    if not rational:
-        ratios = (rational_square_root(square / free[0]) for square in free)
-        lines = [(ratio, _F(0)) for ratio in ratios if ratio is not None]
-    if not len(free) == len(lines) > 0 or len(free) + len(constants) < cubic.degree:
+    if len(free) + len(constants) < cubic.degree:
         return None
-    period = reduce(common_multiple, (2 / abs(slope) for slope, _ in lines))
+    rational = [*map(_rational_root, free)]
+    if None in rational:
+        # Multiples of w = sqrt(free[0]), so that w and -w are equivalent.
+        power, k = free[0], 2
+        slopes = [rational_square_root(square / power) for square in free]
+        lines = [(slope, _F(0)) for slope in slopes if slope]
+    else:
+        forms = [*map(scaled_form, filter(None, rational))]
+        power, k = forms[0].form, 1
+        lines = [(1 / scale, shift) for form, scale, shift in forms if form == power]
+    if len(lines) < len(free):
+        return None
     # The w modulo the period with this structure: of those at which a line has a denominator of the table.
-    values = [_F(k, 60) for k in range(int(60 * period * max(abs(slope) for slope, _ in lines)))]
-    known = [value for value in values if value.denominator <= LARGEST_DENOMINATOR]
-    tried = {(value - shift) / slope % period for slope, shift in lines for value in known}
+    period = reduce(common_multiple, (2 / abs(slope) for slope, _ in lines))
+    tried = {
+        (_F(above, below) - shift) / slope % period
+        for slope, shift in lines
+        for below in range(1, LARGEST_DENOMINATOR + 1)
+        for above in range(int(below * period * abs(slope)))
+    }
     admitted = [w for w in sorted(tried) if kimura_structure([*constants, *(a * w + b for a, b in lines)]) is structure]
-    if admitted and rational:
-        return Congruence.make(over_parameters(cubic.field.poly([0, 1]) - rational[0].form), admitted, period)
-    # Only w^2 is known, so w and -w are equivalent.
     statements = list[Statement]()
     for denominator in sorted({w.denominator for w in admitted}):
         D = lcm(denominator, period.denominator)
-        residues = [int(D * w) for w in admitted if w.denominator == denominator]
-        equation = over_parameters(cubic.field.poly([-(D**2) * free[0], 0, 1]))
-        statements.append(integer_roots(equation, residues, int(D * period)))
+        equation = cubic.field.poly([-(D**k) * power, *[0] * (k - 1), 1])  # its roots are D w
+        numbers = Classes.of((D * w for w in admitted if w.denominator == denominator), D * period)
+        statements.append(integer_roots(over_parameters(equation), numbers))
     return either(*statements)

@@ -14,9 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from itertools import groupby
 from math import lcm, prod
-from operator import itemgetter
 
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
@@ -43,8 +41,6 @@ from kovacic.parametric.theorems import mean_of_singular_points
 #: The degree up to which solutions with generic parameters are expanded: a series for a/x + b + c x + x^2 takes 0.4 s up to the
 #: degree 16, 5 s up to 24, and 33 s up to 40.
 SMALL_DEGREE = 8
-#: Degrees of invariants, each with a structure of the groups for which it is examined.
-Degrees = list[tuple[int, Structure]]
 
 
 @dataclass
@@ -80,61 +76,40 @@ def _examinable(functions: Iterable[FunctionPoly]) -> list[FunctionPoly] | None:
 def search_special_values(problem: Problem) -> Findings:
     """Candidates for the special values of the parameters.
 
-    The exponents say which degrees of invariants are examined; a logarithm leaves fewer of them, and each one gives equations
+    The exponents say which degrees of invariants are examined; a logarithm leaves none of them, and each one gives equations
     for the number of its zeros, from which the statements are made.
     """
-    wanted = _degrees_that_decide(problem)
-    if wanted is not None:
+    findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
+    q = _common_denominator(problem)
+    if q is not None:
         name = "exponents that don't depend on the parameters: invariants of bounded degree"
         findings = Findings(Theory(name, "UW96", "HW97"))
-    else:
-        findings = Findings(Theory("the exponents, and polynomials of bounded or natural degree", "Kov86", "AMW11"))
-        _add_reducible(problem, findings)
-        wanted = _degrees_that_are_possible(problem)
-    # An exponent difference that is a positive integer means a logarithm, and so case 1 or none, unless the obstruction to a
-    # solution without one vanishes: its zeros are examined as a whole.
-    obstructions = filter(None, map(_obstruction, problem.places))
-    candidates = _examinable(map(over_parameters, obstructions)) if wanted else None
-    if candidates is not None:
-        findings.candidates += candidates
-        wanted = [(m, structure) for m, structure in wanted if structure is Structure.REDUCIBLE]
-    #: The equations for the number of zeros by the degree; None if there are too many.
-    equations: dict[int, tuple[FunctionPoly, ...] | None] = {}
-    for m, pairs in groupby(wanted, itemgetter(0)):
-        factors = _equations_for_zeros(problem, m, findings)
-        if factors == ():
-            continue
-        if exponents.with_points_apart(problem) is None:
-            findings.unproven.append(f"case {next(pairs)[1].case} where the exponents at conjugate points differ")
-        else:
-            equations[m] = factors
-    known = [(m, structure) for m, structure in wanted if m in equations]
-    # A rational form of degree 2 has a linear factor with a rational omega, one of higher degree may be that of case 2 or 3.
-    shown = [(m, structure) for m, structure in known if structure is not Structure.REDUCIBLE or m <= 2]
-    if len(shown) < len(known):
-        _add_reducible(problem, findings)
+    _add_reducible(problem, q, findings)
     half_integers = _all_half_integers(problem)
     if half_integers != NEVER:
         findings.conditions.append((half_integers, Structure.IMPRIMITIVE))
-    findings.conditions += [(Natural(problem.S, m, equations[m], structure), structure) for m, structure in shown]
-    findings.conditions.sort(key=lambda condition: condition[1].case)
+    degrees_of_invariants = _degrees_that_are_possible(problem)
+    # An exponent difference that is a positive integer means a logarithm, and so case 1 or none, unless the obstruction to a
+    # solution without one vanishes: its zeros are examined as a whole.
+    obstructions = filter(None, map(_obstruction, problem.places)) if degrees_of_invariants else ()
+    candidates = _examinable(map(over_parameters, obstructions))
+    if candidates is not None:
+        findings.candidates += candidates
+        return findings
+    for m, structure in degrees_of_invariants:
+        factors = _equations_for_zeros(problem, m, findings)
+        if exponents.with_points_apart(problem) is None and factors != ():
+            findings.unproven.append(f"case {structure.case} where the exponents at conjugate points differ")
+        elif factors != ():
+            findings.conditions.append((Natural(problem.S, m, factors, structure), structure))
     return findings
 
 
-def _degrees_that_decide(problem: Problem) -> Degrees | None:
-    """Degrees m such that every Liouvillian equation with these exponents has a rational form of one of them, with its group.
-
-    These are 2 and q for reducible groups, q the common denominator of the exponents: if y1 = prod (x - c)^(e_c) P is the only
-    solution with a rational omega, y1^q is rational; 4 for imprimitive ones; 12 for primitive ones.  None if an exponent
-    difference isn't a rational number.
-    """
+def _common_denominator(problem: Problem) -> int | None:
+    """The common denominator of all exponents; None if an exponent difference isn't a rational number."""
     places = [place for place in problem.places if place.kind in (Kind.REGULAR, Kind.UNRAMIFIED)]
     known = [(1 + place.delta) / 2 for place in places if place.delta is not None]
-    if len(known) < len(places):
-        return None
-    q = lcm(*(exponent.denominator for exponent in known))
-    reducible = [] if _is_ramified(problem) else [(m, Structure.REDUCIBLE) for m in dict.fromkeys((2, q))]
-    return sorted([*reducible, *_degrees_that_are_possible(problem)], key=itemgetter(0))
+    return lcm(*(exponent.denominator for exponent in known)) if len(known) == len(places) else None
 
 
 def _obstruction(place: Place) -> Poly | None:
@@ -158,12 +133,15 @@ def _obstruction(place: Place) -> Poly | None:
     return obstruction
 
 
-def _degrees_that_are_possible(problem: Problem) -> Degrees:
-    """4 if two places can be branch points of case 2 for some values of the parameters; 12 unless case 3 is excluded."""
+def _degrees_that_are_possible(problem: Problem) -> list[tuple[int, Structure]]:
+    """The degrees of invariants to examine, each with the structure of a group.
+
+    They are 4 if two places can be branch points of case 2 for some values of the parameters, and 12 unless case 3 is excluded.
+    """
     # A simple pole, or a double exponent, means a logarithm for all values, which leaves only case 1 or none.
     if any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places):
         return []
-    found: Degrees = []
+    found: list[tuple[int, Structure]] = []
     # The square root of an invariant needs two branch points, whose exponent differences are half-integers or unknown.
     halves = [p for p in problem.places if p.kind is Kind.REGULAR and (p.delta is None or p.delta.denominator == 2)]
     ramified = [place for place in problem.places if place.kind is Kind.RAMIFIED]
@@ -189,9 +167,16 @@ def _is_ramified(problem: Problem) -> bool:
     return any(place.kind is Kind.RAMIFIED for place in problem.places)
 
 
-def _add_reducible(problem: Problem, findings: Findings) -> None:
-    """Add the values with a rational omega: candidates for each degree of P that is a number, and a statement for others."""
+def _add_reducible(problem: Problem, q: int | None, findings: Findings) -> None:
+    """Add the values with a rational omega: candidates for each degree of P that is a number, and a statement for others.
+
+    If the exponents have the common denominator q, there is a rational form of degree 2 or q: the product of two solutions with
+    a rational omega, or y^q for a single one y = prod (x - c)^(e_c) P.
+    """
     if _is_ramified(problem) or _is_excluded_by_symmetry(problem):
+        return
+    # All forms are examined: a set evaluates each.
+    if q is not None and {*(findings.add(exponents.form_conditions(problem, m)) for m in {2, q})} == {True}:
         return
     equation = degree_equation(problem)
     if equation is None:

@@ -63,7 +63,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.claims import irreducible_factors, over_parameters, signed_sums
+from kovacic.parametric.claims import Classes, irreducible_factors, over_parameters, signed_sums
 from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, shortest_form
 from kovacic.parametric.integers import integer_roots
@@ -299,7 +299,7 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
         verdict = _whittaker_group(squares[0], squares[1], n)
     name = Theory(f"{author}'s equation in `{coordinate}`: Martinet & Ramis", "MR89", "DLR92")
     origin = Signed(partial(laguerre_formula, coordinate, b, r, q, variable), 2)
-    statement = integer_roots(over_parameters(signed_sums(squares, Fraction(0), b.field)), [n], 2 * n)
+    statement = integer_roots(over_parameters(signed_sums(squares, Fraction(0), b.field)), Classes.of([n], 2 * n))
     region = ParameterRegion(statement, verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])
 

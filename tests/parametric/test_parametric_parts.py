@@ -20,7 +20,7 @@ from kovacic import Structure
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import read_assumptions
-from kovacic.parametric.claims import DegreeExists, over_parameters
+from kovacic.parametric.claims import INTEGERS, DegreeExists, over_parameters
 from kovacic.parametric.exponents import without_constant_pivots
 from kovacic.parametric.formulas import root_written, shortest_form
 from kovacic.parametric.integers import Congruence, natural_root
@@ -90,7 +90,7 @@ def test_what_earlier_regions_cover() -> None:
     N = field.poly([0, 1])
 
     def root(equation: Any) -> Congruence:
-        return Congruence.make(equation, [0], 1)
+        return Congruence.make(equation, INTEGERS)
 
     def kept(*statements: Statement) -> list[int]:
         regions = [ParameterRegion(statement, RegionVerdict(None)) for statement in statements]
