@@ -355,9 +355,9 @@ class Assumptions:
         are_integers = all(numbers.are_covered_by(INTEGERS) for numbers in classes.values())
         return INTEGERS if are_integers and form.den.is_one() else None
 
-    def is_irrational(self, form: Poly) -> bool:
+    def is_irrational(self, form: FunctionPoly) -> bool:
         """True for a linear form in which one parameter is irrational and the others are rational."""
-        linear = linear_of(over_parameters(form))
+        linear = linear_of(form)
         if linear is None:
             return False
         kinds = [self.of(name).rational for name in linear.factors]

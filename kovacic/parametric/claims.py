@@ -180,14 +180,15 @@ class ParameterPoint:
         """The parameters themselves, which can have all values."""
         return cls(field.names, tuple(map(field.generator, field.names)), field)
 
-    def at(self, function: FunctionPoly) -> Poly:
+    def at(self, function: Poly) -> Poly:
         """The value of a polynomial over Q(t).  Raises `ZeroDivisionError` if it isn't defined."""
-        chosen = [self.values[self.names.index(name)] for name in function.field.names]
-        return function.value_at(chosen, self.field)
+        known = over_parameters(function)
+        chosen = [self.values[self.names.index(name)] for name in known.field.names]
+        return known.value_at(chosen, self.field)
 
     def restricted(self, S: RatFunc) -> RatFunc:
         """S at the point.  Raises `ZeroDivisionError` if S isn't defined there."""
-        return RatFunc(*(self.at(over_parameters(part)) for part in S.cleared()))
+        return RatFunc(*map(self.at, S.cleared()))
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {value.to_str()}" for name, value in zip(self.names, self.values, strict=True))
@@ -348,7 +349,7 @@ class SumOfRoots(Claim):
     numbers: Classes
 
     def _holds(self, point: ParameterPoint) -> bool:
-        squares = [point.at(over_parameters(square)) for square in self.squares]
+        squares = [*map(point.at, self.squares)]
         sums = signed_sums(squares, point.at(self.mean), point.field)
         return any(map(self.numbers.contains, rational_roots(sums)))
 
@@ -391,7 +392,7 @@ class IntegerFamily(ForInteger):
         for pole in self.poles:
             if not point.at(pole.zero):
                 yield from self.numbers.roots_of(point.field.poly([0, 1]) - point.at(pole.root))
-        above, below = (point.at(over_parameters(part)) for part in self.value.cleared())
+        above, below = map(point.at, self.value.cleared())
         numbers = self.numbers.roots_of(above - below * point.values[point.names.index(self.parameter)])
         yield from (number for number in numbers if below(point.field.poly([number])))
 

@@ -122,8 +122,6 @@ def _minor_conditions(images: Sequence[FunctionPoly], surface: Any) -> RankCondi
         polynomials = _factors_of_minors(rows, rank, point, field) if surface is None else ()
         return RankConditions(polynomials, () if has_one_parameter else None, deficient)
     minors = [*filter(None, (_determinant([[*row] for row in chosen]) for chosen in combinations(rows, rank)))]
-    if surface is not None and len(minors) > 1:
-        return RankConditions((), tuple(element(field, minor) for minor in minors), deficient)
     common = reduce(lambda a, b: a.gcd(b), minors)
     factors = tuple(irreducible_factors(element(field, common)))
     # The system of the cofactors of the minors, without powers, the shortest first.

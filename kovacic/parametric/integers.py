@@ -252,7 +252,7 @@ class Congruence(Statement):
         N = equation.field.poly([0, 1])
         if k == 1:
             form, scale, offset = scaled_form(-equation[0] / equation[1])  # the root N = form/scale + offset
-            return cls(over_parameters(N - form), numbers.moved(scale, -offset * scale))
+            return cls(N - form, numbers.moved(scale, -offset * scale))
         mean = laurent_constant_term(-equation[k - 1] / (k * equation.lc))
         forms: list[tuple[Fraction, str, FunctionPoly, Classes]] = []
         for sign in (1, -1):  # sign N - shift brings the mean into (-1, 0], as far from 0 as possible
@@ -382,6 +382,6 @@ def free_letter(names: Collection[str], preferred: str = INTEGER_LETTERS) -> str
     return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
-def integer_roots(equation: FunctionPoly, numbers: Classes) -> Statement:
+def integer_roots(equation: Poly, numbers: Classes) -> Statement:
     """The statement that a polynomial in N over Q(t) has one of the numbers as a root, integers unless its degree is 1."""
     return either(*(Congruence.make(factor, numbers) for factor in polynomial_factors(equation)))

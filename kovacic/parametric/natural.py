@@ -232,7 +232,9 @@ class Natural(Statement):
         if self.factors is None or any(any(degrees(equation)) for equation in unsolved):
             problem = analyse(self.S, Budget())
             numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
-        if numbers is not None:  # d + 1 = +-sqrt(b)/2 +- c, or d = 6 + j*a + k*b with integers j and k
+        # d + 1 = +-sqrt(b)/2 +- c, or d = 6 + j*a + k*b with integers j and k; without roots S is one on a curve, where it has
+        # other exponents than for free parameters.
+        if numbers is not None and numbers.roots:
             has_zero = self.factors is None or problem.field.poly([-numbers.constant, 1]) in self.factors
             letters = list[str]()
             for _ in () if numbers.only_signs else numbers.roots:

@@ -34,7 +34,6 @@ from kovacic.parametric.claims import (
     ParameterPoint,
     irreducible_factors,
     on_linear_zeros,
-    over_parameters,
     rational_number,
 )
 from kovacic.parametric.integers import Congruence
@@ -382,7 +381,7 @@ def _where_solvable(equation: Poly, chart: ParameterPoint) -> list[ParameterPoin
 
 
 def _on(surface: Hypersurface, chart: ParameterPoint) -> ParameterPoint:
-    values = tuple(surface.at(over_parameters(value)) for value in chart.values)
+    values = tuple(map(surface.at, chart.values))
     return ParameterPoint(chart.names, values, surface.field)
 
 
@@ -516,17 +515,13 @@ def in_lines(regions: Sequence[ParameterRegion]) -> list[ParameterRegion]:
 def without_empty(regions: Iterable[ParameterRegion]) -> tuple[ParameterRegion, ...]:
     """The regions without those that earlier ones cover, for instance because their statements are stronger."""
     kept: list[ParameterRegion] = []
-    seen: list[set[Statement]] = []
     for region in regions:
         check_time()
-        said = {*region.statement.conjuncts}
-        if any(known <= said for known in seen):
-            continue
-        charts = charts_of(region.statement)
-        if covered(charts, [other.statement for other in kept]):
-            continue
-        seen.append(said)
-        kept.append(region)
+        statement = region.statement
+        earlier = [other.statement for other in kept]
+        is_stronger = any({*statement.conjuncts}.issuperset(other.conjuncts) for other in earlier)
+        if not is_stronger and not covered(charts_of(statement), earlier):
+            kept.append(region)
     return tuple(kept)
 
 
@@ -623,7 +618,9 @@ def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
             inner = _mirrored(inner, is_same)
         firsts = [first]
         before, known = blocks[-1] if blocks else ([ALWAYS], [])
-        if _exclude_one_another(before[-1], first) and _say_the_same(known, inner, is_same):
+        functions = [one.function for one in vanishing([before[-1], first])]
+        exclude_one_another = len(functions) == 2 and rational_number(functions[0] - functions[1]) is not None
+        if exclude_one_another and _say_the_same(known, inner, is_same):
             blocks.pop()
             firsts = [*before, first]
             pairs = zip(known, inner, strict=True)
@@ -634,13 +631,6 @@ def _mirrored(cases: Iterable[Case], is_same: Likeness) -> list[Case]:
         for firsts, inner in blocks
         for case in inner
     ]
-
-
-def _exclude_one_another(first: Statement, second: Statement) -> bool:
-    """True for two vanishing functions that differ by a number."""
-    if not isinstance(first, Vanishes) or not isinstance(second, Vanishes):
-        return False
-    return bool(rational_number(first.function - second.function))
 
 
 def _say_the_same(cases: list[Case], others: list[Case], is_same: Likeness) -> bool:

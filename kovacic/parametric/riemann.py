@@ -361,8 +361,8 @@ def kimura_statements(problem: Problem) -> Iterator[tuple[Structure, Statement]]
     """Each structure with the statement under which the group has it, and no earlier one."""
     cubic = squares_of_differences(problem)
     s1, s2, s3 = -cubic[2], cubic[1], -cubic[0]
-    z = over_parameters(cubic.field.poly([0, 0, 1]))
-    sums = over_parameters(((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z)  # its roots N are the four sums, up to signs
+    z = cubic.field.poly([0, 0, 1])
+    sums = ((z - s1) ** 2 - 4 * s2) ** 2 - 64 * s3 * z  # its roots N are the four sums, up to signs
     yield Structure.REDUCIBLE, integer_roots(sums, ODD)
     constants = differences(cubic).constants
     always = kimura_structure(constants)
@@ -396,7 +396,7 @@ def _in_table(cubic: FunctionPoly, structure: Structure) -> Statement:
         free = [factor for factor, k in powers if k + beside > 1 and without_parameters(factor) is None]
         if free:
             squares = (factor(cubic.field.poly([0, 0, _F(1, 4)])) for factor in free)
-            return either(*(integer_roots(over_parameters(square), ODD) for square in squares))
+            return either(*(integer_roots(square, ODD) for square in squares))
     return Schwarz(cubic, (structure,))
 
 
@@ -404,7 +404,7 @@ def has_denominator(square: Poly, denominator: int) -> Statement:
     """The statement that an exponent difference with this square is rational with this denominator."""
     equation = square.field.poly([-square * denominator**2, 0, 1])
     coprime = (r for r in range(denominator) if gcd(r, denominator) == 1)
-    return integer_roots(over_parameters(equation), Classes.of(coprime, denominator))
+    return integer_roots(equation, Classes.of(coprime, denominator))
 
 
 def _rational_root(square: Poly) -> FunctionPoly | None:
@@ -448,5 +448,5 @@ def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | N
         D = lcm(denominator, period.denominator)
         equation = cubic.field.poly([-(D**k) * power, *[0] * (k - 1), 1])  # its roots are D w
         numbers = Classes.of((D * w for w in admitted if w.denominator == denominator), D * period)
-        statements.append(integer_roots(over_parameters(equation), numbers))
+        statements.append(integer_roots(equation, numbers))
     return either(*statements)

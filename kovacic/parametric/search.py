@@ -63,14 +63,15 @@ class Findings:
 
 
 def _examinable(functions: Iterable[FunctionPoly]) -> list[FunctionPoly] | None:
-    """The factors of the first function on whose zeros all special values are found; None without one."""
+    """The factors of the first function on whose zeros all special values are found; None without one.
 
-    def is_examinable(
-        function: FunctionPoly,
-    ) -> bool:  # in one parameter, or with zeros that are given by rational functions
-        return sum(map(bool, degrees(function))) == 1 or isinstance(hypersurface(function).field, FunctionField)
-
-    return next((factors for factors in map(irreducible_factors, functions) if all(map(is_examinable, factors))), None)
+    These are functions of one parameter, and those whose zeros are given by rational functions.
+    """
+    for factors in map(irreducible_factors, functions):
+        surfaces = (hypersurface(factor) for factor in factors if sum(map(bool, degrees(factor))) > 1)
+        if all(isinstance(surface.field, FunctionField) for surface in surfaces):
+            return factors
+    return None
 
 
 def search_special_values(problem: Problem) -> Findings:
@@ -98,7 +99,7 @@ def search_special_values(problem: Problem) -> Findings:
         return findings
     for m, structure in degrees_of_invariants:
         factors = _equations_for_zeros(problem, m, findings)
-        if exponents.with_points_apart(problem) is None and factors != ():
+        if exponents.with_points_apart(problem) is None:
             findings.unproven.append(f"case {structure.case} where the exponents at conjugate points differ")
         elif factors != ():
             findings.conditions.append((Natural(problem.S, m, factors, structure), structure))

@@ -348,7 +348,7 @@ def solutions_there(S: RatFunc, variable: str, _: int | None = None) -> tuple[Po
     """
     decision = decide(S, Budget())
     riccati = decision.riccati
-    if riccati is None or riccati.degree > 1:
+    if riccati is None:
         return ()
     omega = -riccati.coefficients[0]
     atoms = Atoms(sympy.Symbol(variable))

@@ -61,9 +61,9 @@ import sympy
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
-from kovacic.engine.places import Kind, Place, Problem, analyse, rational_square_root
+from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.claims import Classes, irreducible_factors, over_parameters, signed_sums
+from kovacic.parametric.claims import Classes, irreducible_factors, signed_sums
 from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, shortest_form
 from kovacic.parametric.integers import integer_roots
@@ -203,12 +203,9 @@ _PointWithDifference = tuple[Any, Any]
 
 
 def _three_points(problem: Problem, x: Any) -> list[_PointWithDifference] | None:
-    """Three singular points, an ordinary infinity among them if need be; None if there are others, or all are conjugate."""
-    places = (place for place in singular_places(problem) if place.degree <= 2)
-    points = [*chain.from_iterable(_points_with_differences(place, x) for place in places)]
-    if len(points) == 2 and problem.infinity.kind is Kind.ORDINARY:
-        points.append((None, sympy.Integer(1)))
-    return points if len(points) == 3 else None
+    """The three singular points, since an equation with two is always reducible; None if all are conjugate."""
+    places = [place for place in singular_places(problem) if place.degree <= 2]
+    return [*chain.from_iterable(_points_with_differences(place, x) for place in places)] or None
 
 
 def _points_with_differences(place: Place, x: Any) -> list[_PointWithDifference]:
@@ -299,7 +296,7 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
         verdict = _whittaker_group(squares[0], squares[1], n)
     name = Theory(f"{author}'s equation in `{coordinate}`: Martinet & Ramis", "MR89", "DLR92")
     origin = Signed(partial(laguerre_formula, coordinate, b, r, q, variable), 2)
-    statement = integer_roots(over_parameters(signed_sums(squares, Fraction(0), b.field)), Classes.of([n], 2 * n))
+    statement = integer_roots(signed_sums(squares, Fraction(0), b.field), Classes.of([n], 2 * n))
     region = ParameterRegion(statement, verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])
 

@@ -16,18 +16,23 @@ from flint import fmpz_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import kovacic
 from kovacic import Structure
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.engine.places import analyse
+from kovacic.limits import Budget
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import read_assumptions
-from kovacic.parametric.claims import INTEGERS, DegreeExists, over_parameters
-from kovacic.parametric.exponents import without_constant_pivots
+from kovacic.parametric.assumptions import Known, check_values, read_assumptions, words_of
+from kovacic.parametric.claims import INTEGERS, ODD, AnyOf, Classes, DegreeExists, IntegerFamily, over_parameters
+from kovacic.parametric.exponents import without_constant_pivots, zeros_of_forms
 from kovacic.parametric.formulas import root_written, shortest_form
-from kovacic.parametric.integers import Congruence, natural_root
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, without_empty
+from kovacic.parametric.integers import Congruence, natural_root, squares_of_roots
+from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theory, without_empty
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import kimura_structure
-from kovacic.parametric.statements import Setting, Statement, Vanishes, all_of
+from kovacic.parametric.search import search_special_values
+from kovacic.parametric.solutions import Progression, weight_by_signs
+from kovacic.parametric.statements import ALWAYS, Setting, Statement, Vanishes, all_of
 
 F = Fraction
 
@@ -89,7 +94,7 @@ def test_what_earlier_regions_cover() -> None:
     p, q, r = map(field.generator, field.names)
     N = field.poly([0, 1])
 
-    def root(equation: Any) -> Congruence:
+    def root(equation: Any) -> Statement:
         return Congruence.make(equation, INTEGERS)
 
     def kept(*statements: Statement) -> list[int]:
@@ -213,3 +218,79 @@ def degrees_as_text(equations: list[FunctionPoly]) -> str:
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:
     equations = [over_parameters((n - f).monic()) for f in (2 * d, -2 * d - 1, 2 * d + 2, 3 * d + 5)]
     assert degrees_as_text(equations).startswith("n = ")
+
+
+def test_nothing_is_proven_where_the_exponents_at_three_conjugate_points_differ() -> None:
+    """A ramified point at infinity excludes case 1; case 2 remains."""
+    field = FunctionField(("a",))
+    x = RatFunc(field.poly([0, 1]))
+    S = (field.generator("a") * x + 1) / (x**3 - 2) ** 2 + x
+    assert search_special_values(analyse(S, Budget())).unproven == [
+        "case 2 where the exponents at conjugate points differ"
+    ]
+
+
+def test_roots_are_sums_of_square_roots_only_for_even_polynomials() -> None:
+    field = FunctionField(("a", "b"))
+    a, b = map(field.generator, field.names)
+    N = field.poly([0, 1])
+    assert squares_of_roots(N**4 - 2 * (a + b) * N**2 + (a - b) ** 2) == [a, b]
+    assert squares_of_roots(N**4 - 2 * (a + b) * N**2 + a * N + (a - b) ** 2) is None
+
+
+@pytest.mark.parametrize(
+    ("residues", "modulus", "expected"),
+    [([1, 3], 4, ODD), ([F(1, 2), F(3, 2)], 2, Classes.of([F(1, 2)], 1)), ([0, 1, 2], 6, Classes((0, 1, 2), F(6)))],
+)
+def test_classes_have_the_least_modulus(residues: list[F], modulus: int, expected: Classes) -> None:
+    assert Classes.of(residues, modulus) == expected
+
+
+def test_two_functions_of_an_integer_are_one_formula() -> None:
+    """`c +- f` for c free of the integer, and no number but 0."""
+    field = FunctionField(("a", "b"))
+    d = RatFunc(field.poly([0, 1]))
+    b = field.generator("b")
+
+    def said(*functions: RatFunc) -> str:
+        families = tuple(IntegerFamily("d", "a", function, INTEGERS) for function in functions)
+        degree = DegreeExists("d", AnyOf(families), 1, lambda *_: True)
+        return prose.text_of_words(prose.sentence(degree)).partition(",")[0]
+
+    assert said(d + 1, -d - 1) == "a = +-(d + 1)"
+    assert said(b + d, b - d) == "a = b +- d"
+    assert said(2 * d, 1 - 2 * d) == "a = 2*d or -2*d + 1"
+    assert said(d, b * d) == "a = d or b*d"
+
+
+def test_words_of_parts() -> None:
+    """What single parts say where the whole is seldom seen: exclusions, theorems, verdicts, kinds of numbers."""
+    field = FunctionField(("a",))
+    values = [field.poly([1]), field.poly([5]), field.poly([4]), field.generator("a")]
+    rest, left = Progression(1, 2).without(values)
+    assert rest == Progression(3, 2)
+    assert left == [values[1], values[3]]
+    twice = Theory("x").also(", y", "K").also(", y", "K")
+    assert (twice, twice.sources) == ("x, y", ("K",))
+    unknown = RegionVerdict(None, known=False)
+    assert str(unknown) == "not determined"
+    region = ParameterRegion(ALWAYS, unknown)
+    assert region.why_no_solution == "nothing is solved where the answer is: not determined"
+    assert Known(("half-integer",)).sympy_properties() == ["rational", "noninteger"]
+    assert words_of(sympy.Symbol("n", integer=False)) == ["noninteger"]
+    assert Known((">0", "<1000")).may_be_among(INTEGERS)
+    assert not Known((">1/4", "<3/4")).may_be_among(INTEGERS)
+    with pytest.raises(kovacic.InputError, match="values are needed for n"):
+        check_values({"m": 1}, ("n",))
+
+
+def test_exponents_at_conjugate_points() -> None:
+    """At two of them a square root is adjoined, which is one more letter; at three there is no weight."""
+    field = FunctionField(("a",))
+    x = RatFunc(field.poly([0, 1]))
+    two = analyse((field.generator("a") * x + 1) / (x**2 + 1) ** 2, Budget())
+    numbers = zeros_of_forms(two, 4)
+    assert numbers is not None
+    assert [square.to_str("x") for square in numbers.squares] == ["a*I", "-a*I"]
+    three = analyse(field.generator("a") / (x**3 - 2) ** 2 + x**2, Budget())
+    assert weight_by_signs(three, "x") is None
