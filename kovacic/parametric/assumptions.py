@@ -439,10 +439,11 @@ def check_mapping(assume: object) -> None:
 
 def check_values(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
     """Raises `InputError` unless values are given for exactly these parameters."""
-    missing = ", ".join(name for name in names if name not in given)
-    unknown = ", ".join(name for name in given if name not in names)
-    if missing or unknown:
-        hint = f"missing: {missing or 'none'}; unknown: {unknown or 'none'}"
+    wanted = {*names}
+    if given.keys() != wanted:
+        differences = (wanted - given.keys(), given.keys() - wanted)
+        missing, unknown = (", ".join(sorted(several)) or "none" for several in differences)
+        hint = f"missing: {missing}; unknown: {unknown}"
         raise InputError(f"values are needed for {', '.join(names) or 'no parameter'}", hint=hint)
 
 

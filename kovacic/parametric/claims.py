@@ -146,25 +146,17 @@ def laurent_constant_term(function: Poly) -> Fraction:
     return to_fraction(function.rational_coefficients()[0]) if function else Fraction(0)
 
 
-class ScaledForm(NamedTuple):
-    """A function of the parameters is form/scale + shift.
+def scaled_form(function: Poly) -> tuple[FunctionPoly, Fraction, Fraction]:
+    """The form, scale and shift of a function form/scale + shift of the parameters that isn't a number.
 
     The form has no constant term (in a Laurent series at 0), and coprime coefficients of which the first is positive.
     """
-
-    form: FunctionPoly
-    scale: Fraction
-    shift: Fraction
-
-
-def scaled_form(function: Poly) -> ScaledForm:
-    """The form of a function that isn't a number."""
     shift = laurent_constant_term(function)
     form = over_parameters(function) - shift
     above, below = ([*map(int, part.coeffs())] for part in (form.num, form.den))
     sign = 1 if above[0] > 0 else -1
     scale = Fraction(gcd(*below), gcd(*above) * sign)
-    return ScaledForm(form * scale, scale, shift)
+    return form * scale, scale, shift
 
 
 @dataclass(frozen=True)

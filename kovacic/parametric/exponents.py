@@ -105,14 +105,14 @@ def _minor_conditions(images: Sequence[FunctionPoly], surface: Any) -> RankCondi
     The rank at a random point is a lower bound, and differs from the generic rank with a probability of about 2**-60.
     """
     # By powers of x, without denominators.
-    smaller = without_constant_pivots([by_power(image.num, 0) for image in images])
+    smaller, eliminated = without_constant_pivots([by_power(image.num, 0) for image in images])
     field = images[0].field
     # Each row once, the shortest first.
-    different = {tuple(map(str, row)): row for row in smaller.rows}
+    different = {tuple(map(str, row)): row for row in smaller}
     rows = sorted(different.values(), key=lambda row: sum(map(len, row)))
     point = _random_point(field, surface)
     rank = point.values(rows).rank() if rows else 0
-    deficient = smaller.eliminated + rank < len(images)
+    deficient = eliminated + rank < len(images)
     if rank == 0:
         return RankConditions(deficient=deficient)
     has_one_parameter = len(field.names) == 1  # on a surface there are two
@@ -187,19 +187,12 @@ def _pivots(matrix: Any) -> list[int]:
     return [next(k for k in columns if reduced[i, k]) for i in range(rank)]
 
 
-class WithoutPivots(NamedTuple):
-    """A matrix whose rank is smaller than that of the original one by the number of `eliminated` rows."""
+def without_constant_pivots(columns: list[dict[int, Any]]) -> tuple[list[list[Any]], int]:
+    """The rows of a smaller matrix, and the number of eliminated rows, by which its rank is smaller.
 
-    rows: list[list[Any]]
-    eliminated: int
-
-
-def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
-    """A smaller matrix without zero rows and columns, for a matrix that is given by the entries of its columns.
-
-    A constant entry clears its column, and its row and column are left out then; the one that touches the fewest entries is
-    chosen first [Markowitz 1957].  A matrix for a polynomial P is banded, so that this eliminates its coefficients by their
-    recurrence.
+    The given matrix is described by the entries of its columns.  A constant entry clears its column, and its row and column
+    are left out then; the one that touches the fewest entries is chosen first [Markowitz 1957].  A matrix for a polynomial P
+    is banded, so that this eliminates its coefficients by their recurrence.
     """
     rows = [{k: column[i] for k, column in enumerate(columns) if column.get(i)} for i in sorted(set().union(*columns))]
     eliminated = 0
@@ -216,7 +209,7 @@ def without_constant_pivots(columns: list[dict[int, Any]]) -> WithoutPivots:
     left = [row for row in rows if row]
     numbers = sorted(set().union(*left))
     zero = 0 * next(iter(left[0].values())) if left else 0
-    return WithoutPivots([[*_primitive({k: row.get(k, zero) for k in numbers}).values()] for row in left], eliminated)
+    return [[*_primitive({k: row.get(k, zero) for k in numbers}).values()] for row in left], eliminated
 
 
 def _cleared(row: dict[int, Any], k: int, chosen: dict[int, Any]) -> dict[int, Any]:

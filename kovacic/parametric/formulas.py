@@ -127,19 +127,11 @@ def root_written(square: Poly, factor: str = "") -> str:
     return _sum_text([replace(_term_in_factors(top, bottom), root=odd, under=under, name=factor)], names)
 
 
-class _Quotient(NamedTuple):
-    """Numerator and denominator over Z, flint's, and the names of their variables."""
-
-    above: Any
-    below: Any
-    names: tuple[str, ...]
-
-
-def _as_quotient(function: Poly | RatFunc, letter: str) -> _Quotient:
-    """A function as a quotient over Z, the polynomial variable first."""
+def _as_quotient(function: Poly | RatFunc, letter: str) -> tuple[Any, Any, Sequence[str]]:
+    """Numerator and denominator over Z, flint's, and the names of their variables, the polynomial variable first."""
     quotient = function if isinstance(function, RatFunc) else RatFunc(function)
     above, below = map(over_parameters, quotient.cleared())
-    return _Quotient(above.num, below.num, (letter, *above.field.names))
+    return above.num, below.num, (letter, *above.field.names)
 
 
 @dataclass(frozen=True)

@@ -103,17 +103,20 @@ class Natural(Statement):
     """For a natural number that the exponents allow, an invariant of degree m with that number of zeros exists.
 
     The number is a root of one of the `factors`, None if there are too many sums of exponents to list them.  m = 1 stands for
-    a solution with a rational omega, whose zeros are those of P.  `structure` is that of the group where the invariant exists
-    and no earlier structure was found.
+    a solution with a rational omega, whose zeros are those of P.
     """
 
     S: RatFunc
     m: int
     factors: tuple[FunctionPoly, ...] | None
-    structure: Structure
     setting: Setting = field(default=Setting(), compare=False)
     #: The algebraic number among the parameters, if there is one: that of the setting, but compared.
     constant: ParameterPoint = NO_CONSTANT
+
+    @property
+    def structure(self) -> Structure:
+        """The structure of the group where the invariant exists and no earlier region contains the point."""
+        return {4: Structure.IMPRIMITIVE, 12: Structure.TETRAHEDRAL}.get(self.m, Structure.REDUCIBLE)
 
     def avoiding(self, setting: Setting) -> Statement:
         return replace(self, setting=setting, constant=setting.assumptions.constant)

@@ -291,19 +291,17 @@ def _by_candidates(problem: Problem, expected: RegionVerdict, settings: Settings
     except LimitExceeded as limit:
         complete = Limited.by(limit)
     theory = findings.theory
-    for statement, structure in findings.conditions:
-        is_reducible = structure is Structure.REDUCIBLE
-        if expected.structure is not None and not is_reducible:
-            continue  # no smaller group
-        verdict = riemann.verdict_by_exponents(problem, structure) if is_reducible else RegionVerdict(structure)
-        if structure.case == 3:  # an invariant of degree 12 leaves the group open
-            verdict = replace(verdict, family="binary tetrahedral, octahedral or icosahedral")
-        origin = None
-        if not isinstance(statement, Natural):
-            theory = theory.also("; half-integers: Treibich & Verdier", "TV90")
-        elif is_reducible:
-            origin = partial(statement.solutions, settings.variable)
-        regions.append(ParameterRegion(statement, verdict, origin=origin))
+    for statement in findings.conditions:
+        if isinstance(statement, Natural) and statement.m == 1:
+            verdict = riemann.verdict_by_exponents(problem, Structure.REDUCIBLE)
+            regions.append(ParameterRegion(statement, verdict, origin=partial(statement.solutions, settings.variable)))
+        elif expected.structure is None:  # else there is no smaller group
+            verdict = RegionVerdict(Structure.IMPRIMITIVE)
+            if not isinstance(statement, Natural):
+                theory = theory.also("; half-integers: Treibich & Verdier", "TV90")
+            elif statement.m == 12:  # an invariant of this degree leaves the group open
+                verdict = RegionVerdict(statement.structure, family="binary tetrahedral, octahedral or icosahedral")
+            regions.append(ParameterRegion(statement, verdict))
     return Partition.of(theory, regions, expected, complete)
 
 

@@ -180,7 +180,7 @@ class StatementReader:
                 texts = data["equations"]
                 equations = texts and tuple(self.polynomial(text, letter) for text in texts)
                 S = self.function(data["S"], data["variable"])
-                return Natural(S, data["degree"], equations, Structure(data["structure"]))
+                return Natural(S, data["degree"], equations)
             case "schwarz":
                 squares = self.polynomial(data["squares"], data.get("unknown", "x"))
                 return Schwarz(squares, tuple(map(Structure, data["structures"])))

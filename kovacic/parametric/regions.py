@@ -432,15 +432,12 @@ def settled_regions(regions: Iterable[ParameterRegion], setting: Setting) -> lis
 # ------------------------------------------------------------------------------- the equation in a region
 
 
-#: The given equation on one piece of a region, with the functions that vanish there and not on every piece.
-EquationThere = tuple[Equation, tuple[FunctionPoly, ...]]
-
-
-def equations_on(statement: Statement, equation: Equation) -> list[EquationThere]:
+def equations_on(statement: Statement, equation: Equation) -> list[tuple[Equation, tuple[FunctionPoly, ...]]]:
     """The equation y'' + p y' + q y = 0 restricted to the pieces of a region, where formulas get their gauge from it.
 
-    On a piece poles of b/a can merge or go to infinity, and the specialised generic gauge is another function.  Pieces that
-    aren't given by functions of fewer parameters are left out.
+    Each comes with the functions that vanish on this piece, and not on every one.  On a piece poles of b/a can merge or go to
+    infinity, and the specialised generic gauge is another function.  Pieces that aren't given by functions of fewer parameters
+    are left out.
     """
     pieces = common_zeros_of(statement)
     there = ((_on_piece(equation, piece), piece if len(pieces) > 1 else ()) for piece in pieces)
@@ -552,8 +549,6 @@ def _is_redundant(
     later regions with another verdict may meet this one only in values of earlier regions.
     """
     is_generic = generic is not None and generic.says_the_same(region.verdict)
-    if not region.verdict.known or not (is_generic or is_variety(region.statement)):
-        return False
     charts = charts_of(region.statement)
     known = [one.statement for one in before]
     for other in after:

@@ -179,21 +179,21 @@ class Schwarz(Statement):
         names = known.names or (f"(the square roots of the roots of {expanded_form(self.cubic, 'Z')})",)
         return f"the exponent differences {_in_backquotes(names)} are in Schwarz's {which}"
 
-    def resolved(self) -> ResolvedDifferences:
-        """The names of two differences next to a constant one, and their classes modulo 1 or 2 up to signs.
+    def resolved(self) -> tuple[Sequence[str], list[tuple[Structure, list[Words]]]]:
+        """The names of two differences next to a constant one, and their classes modulo 1 or 2 up to signs by structure.
 
         Otherwise no names, and the rows of Schwarz's table: the differences modulo 1, and the parity of the sum of integers.
         """
         known = differences(self.cubic)
         third = known.constants[0] if len(known.constants) == 1 else None
         if known.names is not None and third is not None:
-            return ResolvedDifferences([*known.free], self._rows_beside(third))
+            return known.free, self._rows_beside(third)
         rows: list[tuple[Structure, list[Words]]] = []
         for row in _SCHWARZ.values():
             if row.structure in self.structures:
                 residues = ", ".join(map(str, row.differences))
                 rows.append((row.structure, [prose.phrase(f"`{residues}`"), ("even" if row.is_even else "any",)]))
-        return ResolvedDifferences([], rows)
+        return (), rows
 
     def _rows_beside(self, third: Fraction) -> list[tuple[Structure, list[Words]]]:
         """The classes of the other two differences, in sixtieths up to signs: modulo 1 if these suffice, else modulo 2."""
@@ -217,13 +217,6 @@ class Schwarz(Statement):
 
 
 prose.WRITERS[Schwarz] = Schwarz.line
-
-
-class ResolvedDifferences(NamedTuple):
-    """The names of exponent differences, and their classes for each structure; without names, rows of Schwarz's table."""
-
-    names: list[str]
-    rows: list[tuple[Structure, list[Words]]]
 
 
 def _class(sixtieths: int, lattice: str) -> Words:
@@ -430,7 +423,7 @@ def _by_one_function(cubic: FunctionPoly, structure: Structure) -> Statement | N
         lines = [(slope, _F(0)) for slope in slopes if slope]
     else:
         forms = [*map(scaled_form, filter(None, rational))]
-        power, k = forms[0].form, 1
+        power, k = forms[0][0], 1
         lines = [(1 / scale, shift) for form, scale, shift in forms if form == power]
     if len(lines) < len(free):
         return None

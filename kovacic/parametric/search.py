@@ -19,7 +19,6 @@ from math import lcm, prod
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.recurrence import FieldSeries
-from kovacic.decision import Structure
 from kovacic.engine.places import Kind, Place, Problem
 from kovacic.limits import MOST_TRIALS, check_time
 from kovacic.parametric import exponents, riemann
@@ -45,11 +44,11 @@ SMALL_DEGREE = 8
 
 @dataclass
 class Findings:
-    """Candidates for special values, conditions for structures, and phrases for what isn't proven."""
+    """Candidates for special values, conditions for structures in their order, and phrases for what isn't proven."""
 
     theory: Theory
     candidates: list[FunctionPoly] = field(default_factory=list)
-    conditions: list[tuple[Statement, Structure]] = field(default_factory=list)
+    conditions: list[Statement] = field(default_factory=list)
     unproven: list[str] = field(default_factory=list)
 
     def add(self, found: exponents.RankConditions) -> bool:
@@ -88,7 +87,7 @@ def search_special_values(problem: Problem) -> Findings:
     _add_reducible(problem, q, findings)
     half_integers = _all_half_integers(problem)
     if half_integers != NEVER:
-        findings.conditions.append((half_integers, Structure.IMPRIMITIVE))
+        findings.conditions.append(half_integers)
     degrees_of_invariants = _degrees_that_are_possible(problem)
     # An exponent difference that is a positive integer means a logarithm, and so case 1 or none, unless the obstruction to a
     # solution without one vanishes: its zeros are examined as a whole.
@@ -97,12 +96,11 @@ def search_special_values(problem: Problem) -> Findings:
     if candidates is not None:
         findings.candidates += candidates
         return findings
-    for m, structure in degrees_of_invariants:
-        factors = _equations_for_zeros(problem, m, findings)
+    for m in degrees_of_invariants:
+        natural = Natural(problem.S, m, _equations_for_zeros(problem, m, findings))
+        findings.conditions.append(natural)
         if exponents.with_points_apart(problem) is None:
-            findings.unproven.append(f"case {structure.case} where the exponents at conjugate points differ")
-        elif factors != ():
-            findings.conditions.append((Natural(problem.S, m, factors, structure), structure))
+            findings.unproven.append(f"case {natural.structure.case} where the exponents at conjugate points differ")
     return findings
 
 
@@ -134,24 +132,21 @@ def _obstruction(place: Place) -> Poly | None:
     return obstruction
 
 
-def _degrees_that_are_possible(problem: Problem) -> list[tuple[int, Structure]]:
-    """The degrees of invariants to examine, each with the structure of a group.
-
-    They are 4 if two places can be branch points of case 2 for some values of the parameters, and 12 unless case 3 is excluded.
-    """
+def _degrees_that_are_possible(problem: Problem) -> list[int]:
+    """4 if two places can be branch points of case 2 for some values of the parameters; 12 unless case 3 is excluded."""
     # A simple pole, or a double exponent, means a logarithm for all values, which leaves only case 1 or none.
     if any(place.order == 1 or (place.order == 2 and place.delta == 0) for place in problem.places):
         return []
-    found: list[tuple[int, Structure]] = []
+    found: list[int] = []
     # The square root of an invariant needs two branch points, whose exponent differences are half-integers or unknown.
     halves = [p for p in problem.places if p.kind is Kind.REGULAR and (p.delta is None or p.delta.denominator == 2)]
     ramified = [place for place in problem.places if place.kind is Kind.RAMIFIED]
     if sum(place.degree for place in halves + ramified) >= 2:
-        found.append((4, Structure.IMPRIMITIVE))
+        found.append(4)
     denominators = [place.delta.denominator for place in problem.places if place.delta is not None]
     are_possible = max(denominators, default=1) <= riemann.LARGEST_DENOMINATOR  # of Schwarz's table
     if riemann.has_regular_points_only(problem) and are_possible:
-        found.append((12, Structure.TETRAHEDRAL))
+        found.append(12)
     return found
 
 
@@ -192,8 +187,7 @@ def _add_reducible(problem: Problem, q: int | None, findings: Findings) -> None:
         if not all(are_complete):
             factors.append(factor)
     if factors:
-        natural = Natural(problem.S, 1, tuple(factors), Structure.REDUCIBLE)
-        findings.conditions.append((natural, natural.structure))
+        findings.conditions.append(Natural(problem.S, 1, tuple(factors)))
 
 
 def _all_half_integers(problem: Problem) -> Statement:

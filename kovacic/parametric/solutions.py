@@ -160,11 +160,12 @@ class PolynomialSolution:
 
     def exclusion(self, d: str) -> Words:
         """The values at which y vanishes identically for the degree d; () if it never does."""
-        if not self.jacobi or any(a.is_number and natural_value(-a - 1) is None for a in self.jacobi):
+        if not self.jacobi:
             return ()
-        # A sum of negative integers, and below -d, is at most -2.
-        total = sympy.expand(sum(self.jacobi))
-        if total.is_number and natural_value(-total - 2) is None:
+        first, second = self.jacobi
+        # These are natural there: a sum of negative integers is at most -2.
+        needed = (-first - 1, -second - 1, sympy.expand(-first - second - 2))
+        if any(number.is_number and natural_value(number) is None for number in needed):
             return ()
         a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d

@@ -232,7 +232,7 @@ def roots_of(place: Place, x: Any) -> list[Any]:
 
 def _simplified_square_root(square: Any) -> Any:
     """The square root, without a radical for a square over Q(i)."""
-    if not square.has(sympy.I) or not square.is_polynomial():
+    if not square.is_polynomial():
         return sympy.sqrt(square)
     constant, factors = sympy.factor_list(square, extension=sympy.I)
     if any(k % 2 for _, k in factors):
@@ -254,10 +254,8 @@ def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> State
     return all_of([riemann.has_denominator(*pair) for pair in zip(squares, denominators, strict=False)])
 
 
-def laguerre_formula(coordinate: Coordinate, b: Poly, r: Poly, q: Poly, variable: str) -> BySigns | None:
-    """Equation (3) for signs e, f, in the coordinate in which S has the form (2); None for q = 0."""
-    if not q:
-        return None
+def laguerre_formula(coordinate: Coordinate, b: Poly, r: Poly, q: Poly, variable: str) -> BySigns:
+    """Equation (3) for signs e, f, in the coordinate in which S has the form (2) with q != 0."""
     x = sympy.Symbol(variable)
     n = coordinate.n
     s, weight = map(written_expression, (coordinate.base, coordinate.weight))
@@ -291,11 +289,12 @@ def martinet_ramis(problem: Problem, variable: str) -> Theorem | None:
     n = coordinate.n
     author, squares = "Bessel", [4 * (1 + 4 * b)]  # N = 2 Delta is n modulo 2n
     verdict = RegionVerdict(Structure.IMPRIMITIVE, family="the infinite dihedral group")
+    origin = None
     if q:  # N = +-beta +- Delta is n modulo 2n
         author, squares = "Whittaker", [r * r / q, 1 + 4 * b]
         verdict = _whittaker_group(squares[0], squares[1], n)
+        origin = Signed(partial(laguerre_formula, coordinate, b, r, q, variable), 2)
     name = Theory(f"{author}'s equation in `{coordinate}`: Martinet & Ramis", "MR89", "DLR92")
-    origin = Signed(partial(laguerre_formula, coordinate, b, r, q, variable), 2)
     statement = integer_roots(signed_sums(squares, Fraction(0), b.field), Classes.of([n], 2 * n))
     region = ParameterRegion(statement, verdict, origin=origin)
     return Theorem(name, [*restriction.undefined(problem), *irreducible_factors(q or r)], [region])

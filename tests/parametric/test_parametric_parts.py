@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
 from itertools import product
@@ -18,20 +19,43 @@ from hypothesis import strategies as st
 
 import kovacic
 from kovacic import Structure
+from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.engine.places import analyse
 from kovacic.limits import Budget
 from kovacic.parametric import prose
-from kovacic.parametric.assumptions import Known, check_values, read_assumptions, words_of
-from kovacic.parametric.claims import INTEGERS, ODD, AnyOf, Classes, DegreeExists, IntegerFamily, over_parameters
+from kovacic.parametric.api import contradictions
+from kovacic.parametric.assumptions import Known, check_values, linear_of, read_assumptions, words_of
+from kovacic.parametric.claims import (
+    INTEGERS,
+    ODD,
+    AnyOf,
+    Classes,
+    DegreeBySum,
+    DegreeExists,
+    ExponentRoot,
+    IntegerFamily,
+    Numbers,
+    ParameterPoint,
+    over_parameters,
+)
 from kovacic.parametric.exponents import without_constant_pivots, zeros_of_forms
-from kovacic.parametric.formulas import root_written, shortest_form
+from kovacic.parametric.formulas import partial_fractions, root_written, shortest_form
 from kovacic.parametric.integers import Congruence, natural_root, squares_of_roots
-from kovacic.parametric.regions import ParameterRegion, RegionVerdict, Theory, without_empty
+from kovacic.parametric.natural import Natural
+from kovacic.parametric.regions import (
+    NOT_ABELIAN,
+    ParameterRegion,
+    RegionVerdict,
+    Theory,
+    borel,
+    without_empty,
+    without_redundant,
+)
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.riemann import kimura_structure
+from kovacic.parametric.riemann import Schwarz, kimura_structure, verdict_by_exponents
 from kovacic.parametric.search import search_special_values
-from kovacic.parametric.solutions import Progression, weight_by_signs
+from kovacic.parametric.solutions import Progression, natural_value
 from kovacic.parametric.statements import ALWAYS, Setting, Statement, Vanishes, all_of
 
 F = Fraction
@@ -261,6 +285,7 @@ def test_two_functions_of_an_integer_are_one_formula() -> None:
     assert said(b + d, b - d) == "a = b +- d"
     assert said(2 * d, 1 - 2 * d) == "a = 2*d or -2*d + 1"
     assert said(d, b * d) == "a = d or b*d"
+    assert said(2 * d, 2 * d + 1, -2 * d - 1, -2 * d - 2) == "a or -a - 1 = 2*d or 2*d + 1"
 
 
 def test_words_of_parts() -> None:
@@ -285,12 +310,99 @@ def test_words_of_parts() -> None:
 
 
 def test_exponents_at_conjugate_points() -> None:
-    """At two of them a square root is adjoined, which is one more letter; at three there is no weight."""
+    """At two of them a square root is adjoined, which is one more letter in the conditions."""
     field = FunctionField(("a",))
     x = RatFunc(field.poly([0, 1]))
     two = analyse((field.generator("a") * x + 1) / (x**2 + 1) ** 2, Budget())
     numbers = zeros_of_forms(two, 4)
     assert numbers is not None
     assert [square.to_str("x") for square in numbers.squares] == ["a*I", "-a*I"]
-    three = analyse(field.generator("a") / (x**3 - 2) ** 2 + x**2, Budget())
-    assert weight_by_signs(three, "x") is None
+
+
+def test_degrees_of_invariants_that_are_possible() -> None:
+    """A simple pole, or a double exponent, means a logarithm, which excludes case 2."""
+    field = FunctionField(("a",))
+    x = RatFunc(field.poly([0, 1]))
+    a = field.generator("a")
+
+    def degrees(S: RatFunc) -> list[int]:
+        conditions = search_special_values(analyse(S, Budget())).conditions
+        return [one.m for one in conditions if isinstance(one, Natural)]
+
+    assert 4 in degrees(a / x**2 + a / (x - 1) ** 2 + x**2)
+    assert 4 not in degrees(a / x**2 + a / (x - 1) + x**2)
+    assert 4 not in degrees(a / x**2 - 1 / (4 * (x - 1) ** 2) + x**2)
+
+
+def test_invariants_at_a_point() -> None:
+    field = FunctionField(("a",))
+    x = RatFunc(field.poly([0, 1]))
+    point = ParameterPoint(("a",), (QQ.poly([F(5, 16)]),))
+    bessel = Natural(field.generator("a") / x**2 + x, 4, None)
+    assert bessel.holds(point)
+    assert not bessel.holds(replace(point, values=(QQ.poly([1]),)))
+
+
+def test_forms_that_are_linear() -> None:
+    field = FunctionField(("a", "b"))
+    a, b = map(field.generator, field.names)
+    linear = linear_of(3 * a - b / 2 + 1)
+    assert linear is not None
+    assert (linear.constant, linear.factors) == (1, {"a": 3, "b": F(-1, 2)})
+    assert linear_of(a * b) is linear_of(a**2) is linear_of(b / a) is None
+
+
+def test_numbers_among_roots() -> None:
+    """Of polynomials over a number field; of sums with multiples of a square root, at a point."""
+    root = AlgebraicField(QQ, QQ.poly([-2, 0, 1]), "s")
+    N = root.poly([0, 1])
+    assert INTEGERS.has_root_of((N - 1) * (N - root.generator)) is True
+    assert INTEGERS.has_root_of((N - F(1, 2)) * (N - root.generator)) is False
+    assert natural_value(sympy.sqrt(3 + 2 * sympy.sqrt(2)) - sympy.sqrt(2)) == 1
+    field = FunctionField(("a",))
+    point = ParameterPoint(("a",), (QQ.poly([4]),))
+    sums = Numbers(F(1), (ExponentRoot(field.generator("a"), 1),), field, field)
+    assert [*DegreeBySum("d", sums, ("j",), has_zero=True).numbers_at(point)] == [1, 3]
+    assert [*DegreeBySum("d", sums, ("j",)).numbers_at(point)] == [3]
+    assert [*DegreeBySum("d", replace(sums, only_signs=True)).numbers_at(point)] == [3]
+
+
+def test_a_region_that_a_later_one_covers_with_the_same_verdict() -> None:
+    field = FunctionField(("p", "q"))
+    p, q = map(field.generator, field.names)
+    first = ParameterRegion(all_of((Vanishes(p), Vanishes(q))), RegionVerdict(Structure.REDUCIBLE))
+    second = ParameterRegion(Vanishes(p), RegionVerdict(Structure.REDUCIBLE))
+    assert without_redundant([first, second], None) == (second,)
+    assert without_redundant([first, replace(second, verdict=RegionVerdict(None))], None)[0] == first
+
+
+def test_groups_in_words() -> None:
+    field = FunctionField(("a",))
+    x = RatFunc(field.poly([0, 1]))
+    S = -F(3, 16) / x**2 + field.generator("a") / (x - 1) ** 2 + F(1, 5) / (x * (x - 1))
+    verdict = verdict_by_exponents(analyse(S, Budget()), Structure.IMPRIMITIVE)
+    assert verdict.group == (
+        "dicyclic where the third exponent difference is rational, else the infinite dihedral group"
+    )
+    assert borel().group == "the Borel group"
+    half = field.poly([F(1, 4)])
+    cubic = over_parameters((field.poly([0, 1]) - half) ** 2 * (field.poly([0, 1]) - field.generator("a")))
+    schwarz = Schwarz(cubic, (Structure.IMPRIMITIVE,))
+    assert not schwarz.holds(ParameterPoint.generic(field))  # there are reducible equations among them
+    assert schwarz.holds(ParameterPoint(("a",), (QQ.poly([2]),)))
+
+
+def test_partial_fractions_without_zero_digits() -> None:
+    x = RatFunc(FunctionField(("a",)).poly([0, 1]))
+    assert partial_fractions(1 / x**2 + x, "x") == "x + 1/x^2"
+
+
+def test_a_false_group_is_contradicted() -> None:
+    """Bessel's equation with n = 1/2 has the solutions exp(ix) and exp(-ix), and the group G_m."""
+    answer = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1", var="x")
+    point = answer.point({"n": "1/2"})
+    assert not [*contradictions(answer, point)]
+    (region,) = answer.regions
+    false = replace(region, verdict=replace(region.verdict, abelian=NOT_ABELIAN))
+    (sentence,) = contradictions(replace(answer, regions=(false,)), point)
+    assert sentence.startswith("the identity component is printed as not abelian, and the group is G_m")

@@ -163,7 +163,7 @@ def schwarz_parts(statement: Statement) -> Iterator[Schwarz]:
 def test_rows_beside_a_constant_difference_are_those_of_the_table(third: Fraction) -> None:
     answer = kovacic.conditions(hypergeometric(("l", "m", str(third))), var="x")
     parts = [part for region in answer.regions for part in schwarz_parts(region.statement)]
-    rows = [(kind, [*map(text_of_words, words)]) for part in parts for kind, words in part.resolved().rows]
+    rows = [(kind, [*map(text_of_words, words)]) for part in parts for kind, words in part.resolved()[1]]
     for l, m in product((Fraction(i, 60) for i in range(-7, 150, 3)), repeat=2):  # noqa: E741
         found = {
             kind
