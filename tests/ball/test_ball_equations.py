@@ -244,6 +244,8 @@ def test_what_the_theorems_say():
     assert ball_theorem(InRoots(sp.Rational(1, 3)))[1] == 2
     assert ball_theorem(InRoots(k))[1] is None
     assert "omega_3 = const" in ball_theorem(InRoots(sp.Integer(1)))[0]
+    round_body = RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/4").on_sphere(3)
+    assert ball_theorem(round_body) == ("A1 = A3: omega is rational for every ratio (case 1)", 1)
     assert "constant" in ball_theorem(RollingBall(m=1, R=1, a="1/5", A1="1/4", A3="1/3").on_plane())[0]
 
 

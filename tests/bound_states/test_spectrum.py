@@ -567,12 +567,13 @@ def test_no_eigenvalues(V: str, domain: tuple[object, object]) -> None:
         ("1/(a^2 + 1 + cos(x))", LINE),
         ("x^2 + 1/(x^2 + 5)", LINE),
         ("2/sin(x)^2", (0, "L")),
+        ("exp(4*x) - sqrt(2)*exp(x)", LINE),
         ("4/cosh(x)^4 - sqrt(2)/cosh(x)^2", LINE),
         ("1/cos(x) + 6/cos(x)^2", ("-pi/2", "pi/2")),  # in exp(i x)
         ("1/x^4 - h/x^3", HALF),  # sqrt(-E) stands in the conditions
     ],
-    ordinary=(0, 2, 3, 5),
-    long=(1,),
+    ordinary=(0, 2, 3, 6),
+    long=(1, 4),
 )
 def test_what_is_not_covered_is_undecided(V: str, domain: tuple[object, object]) -> None:
     """Where the poles are isn't known, and whether E = 2 d + 1 has a closed form is known for each d alone."""

@@ -617,6 +617,14 @@ def transformed(S: str, *transform: str) -> tuple[str, tuple[Any, Any, Any]]:
     return f"({c2})*y'' + ({c1})*y' + ({c0})*y = 0".replace("**", "^"), (c2, c1, c0)
 
 
+@pytest.mark.parametrize("S", ["exp(x)", "pi*x"])
+def test_a_wronskian_in_other_letters_is_not_stated_as_that_of_the_pair(S: str) -> None:
+    """In t = exp(x) it is -1/(2 t); the other is a power of a letter called pi."""
+    pair = kovacic.solve(f"y'' = {S}*y").special.pair
+    assert pair is not None
+    assert pair.wronskian is None
+
+
 @pytest.mark.parametrize(
     ("S", "transform", "exceptions"),
     [
