@@ -90,13 +90,11 @@ def closed_forms(question: Examined, max_degree: int, limits: Limits) -> ClosedF
     except LimitExceeded as limit:  # levels that were found stay
         found.complete, found.reason = False, f"undecided: {limit}"
     # The norms come last: an integral that takes the rest of the time costs no level.
-    found.levels = {key: _with_norms(level, question) for key, level in found.levels.items()}
-    return found
-
-
-def _with_norms(level: Algebraic, question: Examined) -> Algebraic:
     x = sympy.Symbol(question.variable)
-    return replace(level, states=tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in level.states))
+    for key, level in found.levels.items():
+        states = tuple(replace(s, norm=norm_of(s.wave, x, question.domain)) for s in level.states)
+        found.levels[key] = replace(level, states=states)
+    return found
 
 
 def _solvable_conditions(question: SpectralProblem, limits: Limits) -> ParametricAnswer | None:
@@ -127,12 +125,9 @@ class _Window(NamedTuple):
         real = question.real
         thresholds = [end.threshold for end in question.ends if isinstance(end.threshold, sympy.Rational)]
         high = min(thresholds, default=sympy.oo)
-        if real is None or question.boundary.is_mixed:
-            return cls(high=high)
-        bounds = real.original.monotonic_range
-        if not bounds:
-            return cls(high=high)
-        low = question.kinetic * _number_below(real.V, real.t, bounds)
+        low = -sympy.oo
+        if real is not None and not question.boundary.is_mixed:
+            low = question.kinetic * _number_below(real.V, real.t, real.original.monotonic_range)
         return cls(low if low.is_Rational else -sympy.oo, high)
 
     def last_number(self, function: Any, E: Any, d: Any) -> int | None:
@@ -151,10 +146,12 @@ class _Window(NamedTuple):
 
 
 def _number_below(V: Any, t: Any, bounds: tuple[Any, ...]) -> Any:
-    """A lower bound of a rational function over Q on an interval where it has no pole, or -oo if none is found.
+    """A lower bound of a rational function over Q on an interval where it has no pole, or -oo if none is found, or for ().
 
     It is a number below one of the values, that isn't a value itself.
     """
+    if not bounds:
+        return -sympy.oo
     low, high = bounds
     num, den = (sympy.Poly(part, t) for part in sympy.fraction(sympy.cancel(V)))
     if not {num.domain, den.domain} <= {sympy.QQ, sympy.ZZ}:

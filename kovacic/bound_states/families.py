@@ -84,6 +84,8 @@ def factor_at(frame: SingularFrame, c: Any) -> WaveProduct:
     """|t - c| on the domain."""
     original = frame.original
     half = original.theta / 2
+    if (original.kind, c) == ("exp", 0):  # as e^theta, which is one power with those of the half angles
+        return WaveProduct(powers={sympy.E: original.theta})
     # c isn't inside the domain: t is larger than c there, unless c is beyond the upper end
     _, high = original.range
     sign = -1 if sympy.simplify(c - high).is_nonnegative else 1

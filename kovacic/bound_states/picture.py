@@ -31,9 +31,9 @@ def draw_levels(
     levels: Sequence[DrawnLevel],
     domain: tuple[float, float],
     *,
-    variable: str = "x",
-    title: str = "",
-    impulses: Sequence[tuple[float, float]] = (),
+    variable: str,
+    title: str,
+    impulses: Sequence[tuple[float, float]],
 ) -> Figure:
     """The potential and the levels, lowest first, where the wave functions are visible.
 

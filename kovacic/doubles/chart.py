@@ -116,7 +116,7 @@ class Region:
         if np.ma.is_masked(points):
             points = np.ma.array(points.filled((low + high) / 2), mask=points.mask)
         # By the extremes; fmin and fmax leave NaN out, which has the value NaN.
-        planes = [(low.real, points.real, high.real), (low.imag, points.imag, high.imag)][: 1 if self.is_real else 2]
+        planes = (low.real, points.real, high.real), (low.imag, points.imag, high.imag)
         outside = points.size and any(
             np.fmin.reduce(values, axis=None) < least or np.fmax.reduce(values, axis=None) > most
             for least, values, most in planes

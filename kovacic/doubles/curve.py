@@ -104,7 +104,6 @@ def arcs(
 
     `states` gives y and y' in balls.  Raises `LimitExceeded` where more than 400,000 samples would be needed.
     """
-    _check_count(points)
     # S is computed at equidistant points, and at nearer and nearer ones beside singular points.
     low, high = interval
     count = max(8, round(800 * (high - low) / width))
@@ -156,7 +155,8 @@ def _arc(part: CurveCoefficients, width: Fraction, points: int, states: Solution
     # How many samples there are up to each point; they are equidistant in that.
     reached = np.concatenate([[0.0], np.cumsum(steps)])
     count = max(2, int(np.ceil(reached[-1])) + 1)
-    _check_count(count)
+    if count > _MOST_SAMPLES:
+        raise LimitExceeded(f"the curve needs more than {_MOST_SAMPLES} samples", limit="samples")
     x = np.interp(np.linspace(0.0, reached[-1], count), reached, part.x)
     arc = _with_samples(np.unique(x), states)
     doubtful = np.ones(len(arc.x) - 1, dtype=bool)
@@ -176,7 +176,6 @@ def _halved(
     left = np.flatnonzero(doubtful & (middles > arc.x[:-1]) & (middles < arc.x[1:]))
     right = left + 1
     h, middles = arc.x[right] - arc.x[left], middles[left]
-    _check_count(len(arc.x) + len(middles))
     new = _with_samples(middles, states)
     # The cubic with these values and slopes, in the middle.
     cubic = (arc.y[left] + arc.y[right]) / 2 + h * (arc.dy[left] - arc.dy[right]) / 8
@@ -221,8 +220,3 @@ def _with_samples(x: Floats, states: SolutionStates) -> Arc:
         said = "the solution grows beyond the range of doubles, and can't be drawn: take a shorter interval"
         raise LimitExceeded(said, limit="digits") from None
     return Arc(x, y, dy, radius)
-
-
-def _check_count(count: int) -> None:
-    if count > _MOST_SAMPLES:
-        raise LimitExceeded(f"the curve needs more than {_MOST_SAMPLES} samples", limit="samples")

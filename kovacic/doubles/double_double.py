@@ -1,7 +1,8 @@
 """Double-double numbers hi + lo, good to about 100 bits, and complex numbers of them or of plain arrays.
 
 One piece of code serves both arithmetics: its variable and its results are NumPy arrays of doubles, or `Pair`s of such arrays.
-Constants are Pairs of floats; as a factor of an array they count as doubles, while in sums and differences both halves do.
+Constants are Pairs of floats; with an array they count as doubles, but for differences, which subtract both halves and so keep
+their digits near a zero.
 
 Nothing is proven here: the errors are those of the usual analyses (a few units of 2^-104 relative to the result of each
 operation), if no product leaves the range of a double; `split` brings numbers to size 1 before they are squared.
@@ -19,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from operator import neg
 from typing import Any, ClassVar
 
 import numpy as np
@@ -70,8 +70,9 @@ class Pair:
         return Pair(self.hi[index], self.lo[index])
 
     def __add__(self, other: Any) -> Any:
-        if isinstance(other, np.ndarray):  # both halves, so that a difference keeps its digits near a zero
-            return (other + self.hi) + self.lo
+        # The low half is below the last place of an array.
+        if isinstance(other, np.ndarray):
+            return other + self.hi
         s = two_sum(self.hi, other.hi)
         t = two_sum(self.lo, other.lo)
         s = two_sum(s.hi, s.lo + t.hi)
@@ -81,10 +82,10 @@ class Pair:
         return Pair(-self.hi, -self.lo)
 
     def __sub__(self, other: Any) -> Any:
-        return self + -other
+        return (self.hi - other) + self.lo if isinstance(other, np.ndarray) else self + -other
 
     def __rsub__(self, other: Any) -> Any:
-        return -self + other
+        return (other - self.hi) - self.lo
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, np.ndarray):
@@ -132,7 +133,12 @@ class Complex:
         return Complex(re, self.im + other.im)
 
     def __sub__(self, other: Complex) -> Complex:
-        return self + other.each(neg)
+        re = self.re - other.re
+        if other.im is None:
+            return Complex(re, self.im)
+        if self.im is None:
+            return Complex(re, -other.im)
+        return Complex(re, self.im - other.im)
 
     def __mul__(self, other: Complex) -> Complex:
         if other.im is None:

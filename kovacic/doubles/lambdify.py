@@ -366,16 +366,9 @@ def _zeros_and_gaps(function: DoubleFunction) -> tuple[Any, Any]:
         return np.empty(0), np.empty(0)
     # Changes of sign between neighbouring points of the grid.
     k = np.flatnonzero(np.sign(y[1:]) * np.sign(y[:-1]) < 0)
-    a = np.array([x[k], y[k]])  # brackets: points and values
-    b = np.array([x[k + 1], y[k + 1]])
-    for _ in range(4):
-        with np.errstate(all="ignore"):
-            quotient = np.abs(b[1] / a[1])
-        # Regula falsi: the zero of the line through both ends, |f(a)|/(|f(a)| + |f(b)|) of the way.
-        zeros = a[0] + (b[0] - a[0]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
-        between = np.array([zeros, function(zeros)])
-        is_left = np.sign(between[1]) == np.sign(a[1])
-        a = np.where(is_left, between, a)
-        b = np.where(is_left, b, between)
+    with np.errstate(all="ignore"):
+        quotient = np.abs(y[k + 1] / y[k])
+    # The zero of the line through both points, |y_k|/(|y_k| + |y_(k+1)|) of the way.
+    zeros = x[k] + (x[k + 1] - x[k]) / (1 + np.where(np.isfinite(quotient), quotient, 1.0))
     gaps = np.diff([function.region.low.real, *zeros, function.region.high.real])
     return zeros, np.minimum(gaps[:-1], gaps[1:])

@@ -140,15 +140,10 @@ class ProductForm:
     constant: Complex | None = None
 
     def __repr__(self) -> str:
-        return f"<ProductForm on {self.region}, {self._kind}>"
+        return f"<ProductForm on {self.region}, {'real' if self.is_real else 'complex'}>"
 
     def _repr_html_(self) -> str:
-        return facts("the closed form", self.region, self.measured, values=self._kind)
-
-    @property
-    def _kind(self) -> str:
-        """Of the values: "real" or "complex"."""
-        return "real" if self.is_real else "complex"
+        return facts("the closed form", self.region, self.measured, values="real" if self.is_real else "complex")
 
     @property
     def interval(self) -> tuple[float, float]:

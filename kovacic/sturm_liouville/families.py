@@ -76,13 +76,8 @@ def family(
         wishes.append(tuple(map(sympy.simplify, (wish.alpha + wish.beta * steepness, wish.beta * slope))))
     (A1, B1), (A2, B2) = wishes
     k = sympy.Dummy("k", positive=True)
-    if B1 == 0:
-        v = sympy.sin(k * t)
-    elif A1 == 0:
-        v = sympy.cos(k * t)
-    else:
-        v = k * sympy.cos(k * t) - A1 / B1 * sympy.sin(k * t)
-    y = sympy.simplify(h) * v
+    v = sympy.sin(k * t) if B1 == 0 else k * sympy.cos(k * t) - A1 / B1 * sympy.sin(k * t)
+    y = sympy.simplify(h) * v.as_independent(x, as_Add=False)[1]
     if 0 in wishes[0] and 0 in wishes[1]:  # else the equation for k is transcendental
         root = (n * sympy.pi if (B1 == 0) == (B2 == 0) else (2 * n - 1) * sympy.pi / 2) / T
         first = int(B1 == 0 or B2 == 0)  # k = 0 belongs to y' = 0 at both ends

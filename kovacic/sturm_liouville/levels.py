@@ -71,9 +71,8 @@ class SeparatedCounter:
         """A point with some 43 % of the oscillations at the largest E to its left; any point would do, but symmetric ones."""
         low, high = (position.mid() for position in self.positions)
         points = [(low + (high - low) * k / 65).mid() for k in range(1, 65)]
-        depths = [(self.span.high * W - Q).max(arb(0)).sqrt() for Q, W in map(problem.around, points)]
-        if not sum(depths) > 0:
-            depths = [arb(1)] * len(points)
+        # Where nothing oscillates, all points count alike.
+        depths = [(self.span.high * W - Q).max(arb(2) ** -200).sqrt() for Q, W in map(problem.around, points)]
         *_, total = so_far = [*accumulate(depths)]
         return next(point for point, depth in zip(points, so_far, strict=True) if depth > total * 0.43)
 

@@ -11,7 +11,7 @@ from functools import cache
 
 from kovacic import derived
 from kovacic.answer import Answer, was_computed
-from kovacic.decision import Decision, NoInvariant, NoRationalOmega, Structure
+from kovacic.decision import NoInvariant, NoRationalOmega, Structure
 
 
 class Reference(dict[str, str]):
@@ -43,7 +43,17 @@ def literature() -> dict[str, Reference]:
 
 def references(answer: Answer) -> tuple[Reference, ...]:
     """The publications that the answer rests on, and those of its group if that was computed."""
-    used = ["Kov86", *_for_the_decision(answer.decision)]
+    used = ["Kov86"]
+    decision = answer.decision
+    kinds = {type(evidence) for exclusion in decision.exclusions for evidence in exclusion.evidence}
+    has_invariant = decision.invariant is not None
+    has_omega = decision.structure is Structure.REDUCIBLE and decision.series is None
+    if has_invariant or NoInvariant in kinds:
+        used += ["UW96", "HW97"]
+    if NoRationalOmega in kinds or (has_omega and not has_invariant):
+        used += ["vH97", "CvH04"]
+    elif has_omega:
+        used.append("HvdP95")
     if answer.case == 3:
         used.append("SU93")
         if was_computed(derived.closed_form, answer):
@@ -53,21 +63,6 @@ def references(answer: Answer) -> tuple[Reference, ...]:
     if group is not None and group.ground.name in ("NOT_TORSION", "FUNCTION", "HOLOMORPHIC_REST"):
         used += ["Dav81", "Can87"]
     return tuple(literature()[key] for key in used)
-
-
-def _for_the_decision(decision: Decision) -> list[str]:
-    """The publications for invariants and for a rational omega."""
-    kinds = {type(evidence) for exclusion in decision.exclusions for evidence in exclusion.evidence}
-    has_invariant = decision.invariant is not None
-    has_omega = decision.structure is Structure.REDUCIBLE and decision.series is None
-    used = []
-    if has_invariant or NoInvariant in kinds:
-        used += ["UW96", "HW97"]
-    if NoRationalOmega in kinds or (has_omega and not has_invariant):
-        used += ["vH97", "CvH04"]
-    elif has_omega:
-        used.append("HvdP95")
-    return used
 
 
 def citation(answer: Answer, *, style: str = "text") -> str:

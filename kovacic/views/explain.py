@@ -15,7 +15,7 @@ from typing import Any
 from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.answer import Answer
-from kovacic.decision import Exclusion, NoInvariant, NoRationalOmega, SemiInvariant, Status, Structure
+from kovacic.decision import NoInvariant, NoRationalOmega, SemiInvariant, Status, Structure
 from kovacic.engine.places import Problem
 from kovacic.engine.riccati import logarithmic_residue
 from kovacic.equation import parameters_of
@@ -39,7 +39,6 @@ from kovacic.writing.document import (
     Format,
     Formula,
     Heading,
-    Paragraph,
     Table,
     anchor,
     format_of,
@@ -215,7 +214,13 @@ class ExplanationWriter(Steps):
     def cases(self) -> Iterator[Block]:
         decision = self.answer.decision
         yield Heading("The proof of this program")
-        yield from map(self._exclusion, decision.exclusions)
+        for exclusion in decision.exclusions:
+            sentence: list[str | Math] = []
+            for evidence in exclusion.evidence:
+                sentence += ["; ", *reason(evidence, self.formulas)]
+                if isinstance(evidence, NoInvariant | NoRationalOmega) and evidence.prime is not None:
+                    sentence.append(f", for polynomials of degree at most {evidence.degree}")
+            yield say(f"Not {_CASES[exclusion.structure]}: ", *sentence[1:], ".")
         if decision.undecided is not None:
             known = "Liouvillian solutions exist" if self.answer.assumed else "Undecided"
             yield say(f"{known}: {decision.undecided}.")
@@ -233,14 +238,6 @@ class ExplanationWriter(Steps):
                 "There is no invariant of degree 2, so at most one omega is rational; its expansion at one place "
                 f"determines it, and it exists. So it is {_CASES[decision.structure]}."
             )
-
-    def _exclusion(self, exclusion: Exclusion) -> Paragraph:
-        sentence: list[str | Math] = []
-        for evidence in exclusion.evidence:
-            sentence += ["; ", *reason(evidence, self.formulas)]
-            if isinstance(evidence, NoInvariant | NoRationalOmega) and evidence.prime is not None:
-                sentence.append(f", for polynomials of degree at most {evidence.degree}")
-        return say(f"Not {_CASES[exclusion.structure]}: ", *sentence[1:], ".")
 
     def certificate(self) -> Iterator[Block]:
         """theta and P, or for a P that is too long its powers."""

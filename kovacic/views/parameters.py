@@ -28,19 +28,10 @@ _LABELS = tuple(kind.name for kind in _KINDS)
 
 
 def conditions_text(answer: ParametricAnswer, *, all: bool) -> str:
-    """The partition in lines; by default as many as fit a screen."""
+    """The equation, its parameters with their assumptions, and the partition in lines; by default as many as fit a screen."""
     complete = "proven to be complete" if answer.complete is True else f"complete {answer.complete}"
     regions = in_lines(answer.regions)
     shown = regions if all or len(regions) <= SCREEN_LINES + 1 else regions[:SCREEN_LINES]
-    lines = [*_heading(answer), *(f"  {region}" for region in shown)]
-    if len(shown) < len(regions):
-        lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
-    lines += [f"  {_where_generic(answer)}: {answer.generic}", f"  ({complete}; {answer.theory})"]
-    return visible("\n".join(lines))
-
-
-def _heading(answer: ParametricAnswer) -> list[str]:
-    """The equation, its parameters with their assumptions, and notices."""
     first = f"y'' = {answer.right.text}, parameters {', '.join(answer.parameters)}"
     assumed = answer.assumptions.without(name for name, _ in answer.letters)
     if assumed:
@@ -48,7 +39,11 @@ def _heading(answer: ParametricAnswer) -> list[str]:
     lines = [first, *(f"  note: {notice}" for notice in answer.notices)]
     if answer.equation is not None and answer.equation.change is not None:
         lines.append(f"  cases and groups over {answer.equation.change.field}")
-    return lines
+    lines += (f"  {region}" for region in shown)
+    if len(shown) < len(regions):
+        lines.append(f"  ... and {len(regions) - len(shown)} more regions: text(all=True), or --all")
+    lines += [f"  {_where_generic(answer)}: {answer.generic}", f"  ({complete}; {answer.theory})"]
+    return visible("\n".join(lines))
 
 
 def _where_generic(answer: ParametricAnswer) -> str:

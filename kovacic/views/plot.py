@@ -355,10 +355,9 @@ class _Label:
     def of_part(self, part: str) -> str:
         """The entry of the real or the imaginary part, or, for "", of a real solution."""
         equation = _typeset(f"{self.name.strip('$')} = {self.formula}", "") if self.formula else ""
-        if self.factor:
-            return f"{_typeset(self.factor)} {self.name}" + f", {equation}" * bool(self.formula)
-        if part:
-            return f"{part} {self.name}" + f", {equation or self.name}" * bool(self.formula)
+        before = [part] * bool(part) + [_typeset(self.factor)] * bool(self.factor)
+        if before:
+            return " ".join([*before, self.name]) + f", {equation or self.name}" * bool(self.formula)
         return equation or self.name
 
 

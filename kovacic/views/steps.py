@@ -136,7 +136,7 @@ class Steps:
                 "and poles of low order."
             )
             return
-        yield self._singular_parts(found) if case == 1 else self._exponents(found)
+        yield self._exponents(found, case)
         yield self._counted(found, case)
         if found.families is None:
             yield say(
@@ -146,25 +146,21 @@ class Steps:
         yield from self._families(found, found.families)
         yield from self._trials(found, found.families, case)
 
-    def _singular_parts(self, search: Search) -> Table:
-        """Step 1 of case 1: the singular part of sqrt(S) at each point, and the two exponents alpha+, alpha-."""
+    def _exponents(self, search: Search, case: int) -> Table:
+        """Step 1: at each point the singular part of sqrt(S), alpha+ and alpha- in case 1, or else the set E of exponents."""
         rows: list[list[Sentence]] = []
         for point, choices in zip(search.points, search.choices, strict=True):
-            t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
-            singular = Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular))
-            # alpha+ comes first; if both are equal there is a single choice.
-            exponents = (self._shown(choice.value) for choice in (choices[0], choices[-1]))
-            rows.append([self._point(point), self._shown(singular), *exponents])
-        head = ("place", Math("[sqrt S]", r"[\sqrt{S}]"), Math("alpha+", r"\alpha^+"), Math("alpha-", r"\alpha^-"))
-        return Table(head, rows)
-
-    def _exponents(self, search: Search) -> Table:
-        """Step 1 of the other cases: the set E of exponents at each point."""
-        rows: list[list[Sentence]] = []
-        for point, choices in zip(search.points, search.choices, strict=True):
-            inside = ", ".join(self._shown(choice.value).text for choice in choices)
-            rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
-        return Table(("place", Math.of("E")), rows)
+            values = [self._shown(choice.value) for choice in choices]
+            if case == 1:
+                t = self.x if point.at is None else self.x - in_sympy(point.at, self.x)
+                singular = Add(*(in_sympy(c, self.x) * t**power for power, c in choices[0].singular))
+                # alpha+ comes first; if both are equal there is a single choice.
+                rows.append([self._point(point), self._shown(singular), values[0], values[-1]])
+            else:
+                inside = ", ".join(value.text for value in values)
+                rows.append([self._point(point), Math(f"{{{inside}}}", rf"\{{{inside}\}}")])
+        names = Math("[sqrt S]", r"[\sqrt{S}]"), Math("alpha+", r"\alpha^+"), Math("alpha-", r"\alpha^-")
+        return Table(("place", *(names if case == 1 else [Math.of("E")])), rows)
 
     def _counted(self, search: Search, case: int) -> Block:
         """Step 2: the number of families of exponents, and of those with a natural number d."""

@@ -153,7 +153,7 @@ def latex_view(answer: Answer) -> str:
 
 
 def html_view(answer: Answer) -> str:
-    """A table of status, case, group, solutions and check."""
+    """A table of status, case, group, two solutions, notes and checks."""
     from kovacic.writing.document import notebook_table
 
     rows: list[tuple[Sentence, Sentence]] = [("equation", equation_of(answer))]
@@ -170,23 +170,17 @@ def html_view(answer: Answer) -> str:
     group = derived.group(answer)
     if group is not None:
         rows.append(("Galois group", [Math(group.name, group.latex), f", {group.description}"]))
-    rows += _rows_of_solutions(answer)
+    pair, notes = _solutions_in_time(answer)
+    for name, value in pair:
+        short = value.shortened
+        rows.append((name, value if short == value else Math(short.text, "")))
+    rows += [("note", note) for note in notes]
+    form = derived.closed_form(answer) if pair else None
+    if form is not None:
+        rows.append(("solutions checked", form.checked))
     rows.append(("verified", "yes, by independent code" if answer.verified else "no"))
     rows += [("note", notice) for notice in answer.notices]
     return notebook_table(rows)
-
-
-def _rows_of_solutions(answer: Answer) -> Iterator[tuple[Sentence, Sentence]]:
-    """Two solutions, notes, and how the closed form was checked."""
-    found, notes = _solutions_in_time(answer)
-    for name, value in found:
-        short = value.shortened
-        yield name, value if short == value else Math(short.text, "")
-    for note in notes:
-        yield "note", note
-    form = derived.closed_form(answer) if found else None
-    if form is not None:
-        yield "solutions checked", form.checked
 
 
 def _solutions_in_time(answer: Answer) -> tuple[list[tuple[Math, Math]], tuple[str, ...]]:

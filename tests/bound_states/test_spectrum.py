@@ -1267,6 +1267,7 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
     """Where exponents are integers, too: no quotient of a sine that vanishes and an infinite Gamma function."""
     (levels,) = kovacic.spectrum(V).levels
     assert levels.members == numbers
+    assert len(levels.wave.atoms(sympy.exp)) == 1
     for number in numbers:
         wave = levels.wave.subs(n, number).doit()
         integral = integral_of_square(wave, -40.0, 40.0)

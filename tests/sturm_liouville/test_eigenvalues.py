@@ -9,6 +9,7 @@ import sympy
 
 import kovacic
 from kovacic import eigenvalues
+from kovacic.general_solution.boundary_problems import read_eigenproblem
 from kovacic.sturm_liouville.discs import germ
 
 HALF_LINE = (0, "oo")
@@ -104,6 +105,11 @@ def test_all_levels_below_the_essential_spectrum_are_known_to_be_all():
     check(found, ["-3.208712152522080", "-0.626136457566240"])
     assert found.complete
     assert schroedinger("5/cosh(x)^2", count=1).complete
+
+
+def test_a_note_says_which_solution_is_meant_at_a_singular_end():
+    problem = read_eigenproblem("x*y'' + y' + lambda*x*y = 0", "y(1)=0", domain=(0, 1))
+    assert "at x = 0 all solutions are square integrable: the smallest one is meant" in str(problem.answer())
 
 
 @pytest.mark.long
