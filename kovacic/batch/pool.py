@@ -54,26 +54,21 @@ class ItemSource:
 
     def __init__(self, feed: Iterator[Item | None]) -> None:
         self._feed = feed
-        self._ended = False
+        self.ended = False
         self.returned: list[Item] = []
         self.failure: Exception | None = None  # that has ended the input, unless it came to its end
-
-    @property
-    def exhausted(self) -> bool:
-        """True if the end of the input is known, and nothing was returned."""
-        return self._ended and not self.returned
 
     def next(self) -> Item | None:
         """The next item, or None if there is none: for the moment, or at the end."""
         if self.returned:
             return self.returned.pop()
-        if not self._ended:
+        if not self.ended:
             try:
                 return next(self._feed)
             except StopIteration:
-                self._ended = True
+                self.ended = True
             except Exception as error:  # raised by the pool, when what came before it is answered
-                self._ended = True
+                self.ended = True
                 self.failure = error
         return None
 
@@ -182,7 +177,7 @@ class Pool(AbstractContextManager["Pool"]):
                     else:
                         refusals.append(refused(item, item.error))
             yield from refusals
-            if source.exhausted and not any(child.item for child in self._children):
+            if source.ended and not source.returned and not any(child.item for child in self._children):
                 if source.failure is not None:
                     raise source.failure
                 return

@@ -14,7 +14,6 @@ Readers define the meaning of numbers, names and calls: a rational function, an 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -349,9 +348,12 @@ class _Parser:
         tokens = self.tokens
         opened = [group.opened + group.is_call for group in self.groups[1:]]
         kind, piece, before = self.kinds[k], self.pieces[k], self.kinds[k - 1]
-        fault: _Fault = f"{piece!r} doesn't belong here", k, k, None
-        if kind == "$END":
-            fault = _incomplete(tokens, k, opened)
+        fault: _Fault = f"{piece!r} doesn't belong here" if piece else "the expression isn't complete", k, k, None
+        if kind == "$END" and before in (*_BINARY_KINDS, "EQUAL", "COMMA"):
+            fault = f"the expression ends after {self.pieces[k - 1]!r}", k - 1, k - 1, "something is missing after it"
+        elif kind == "$END" and opened:
+            hint = f"add {excerpt(')' * len(opened))!r} where it ends"
+            fault = "this parenthesis is never closed", opened[-1], opened[-1], hint
         elif kind == "RPAR" and before == "LPAR":
             said = "there is nothing between these parentheses"
             fault = said, k - 1, k, "leave them out, or write what belongs there"
@@ -367,8 +369,8 @@ class _Parser:
             fault = said, k, k, "write the number or name that belongs there"
         elif kind == "EQUAL":
             fault = (*fault[:3], "an equation has one equals sign, outside all parentheses")
-        message, begin, last, hint = fault
-        return tokens.error(ParseError, message, begin, last + 1, hint=hint)
+        message, begin, last, remedy = fault
+        return tokens.error(ParseError, message, begin, last + 1, hint=remedy)
 
 
 #: The methods for tokens where an operand is expected; all other kinds are misplaced there.
@@ -413,17 +415,6 @@ def _check_neighbours(tokens: ParserTokens, reader: Any, begin: int, right: int)
 
 #: A message, the first and the last token that it is about, and a hint.
 _Fault = tuple[str, int, int, str | None]
-
-
-def _incomplete(tokens: ParserTokens, end: int, opened: Sequence[int]) -> _Fault:
-    """The fault of a text that ends too early."""
-    last = end - 1
-    if tokens.kinds[last] in (*_BINARY_KINDS, "EQUAL", "COMMA"):
-        return f"the expression ends after {tokens.pieces[last]!r}", last, last, "something is missing after it"
-    if not opened:
-        return "the expression isn't complete", end, end, None
-    hint = f"add {excerpt(')' * len(opened))!r} where it ends"
-    return "this parenthesis is never closed", opened[-1], opened[-1], hint
 
 
 def _comma(tokens: ParserTokens, k: int) -> _Fault:

@@ -283,7 +283,7 @@ class Paste:
         if scan.partners.get(opening) != len(scan) - 1:
             return False
         self.has_command = True
-        first, *rest = [self.resolved(_unquoted(part)) for part in Tokens(scan[opening + 1 : -1]).split()]
+        first, *rest = map(self.resolved, Tokens(scan[opening + 1 : -1]).split())
         if not first:
             return True
         if first[0].text in SOLVERS:
@@ -299,6 +299,9 @@ class Paste:
         return True
 
     def resolved(self, part: Tokens) -> Tokens:
+        """Without quotation marks; what a name stands for."""
+        while _is_quoted(part):
+            part = Tokens(part[1:-1])
         return self.named.pop(part[0].text, part) if len(part) == 1 else part
 
     def list_of(self, scan: Tokens) -> bool:
@@ -418,12 +421,6 @@ def _without_assignment(scan: Tokens) -> tuple[str, Tokens]:
 
 def _is_quoted(scan: Tokens) -> bool:
     return len(scan) > 2 and scan[0].kind == scan[-1].kind == "PRIMES" and scan[0].text == scan[-1].text
-
-
-def _unquoted(part: Tokens) -> Tokens:
-    while _is_quoted(part):
-        part = Tokens(part[1:-1])
-    return part
 
 
 def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:

@@ -26,7 +26,7 @@ _GREEK_LETTERS = (
     "phi chi psi omega Gamma Delta Theta Lambda Xi Sigma Upsilon Phi Psi Omega"
 )
 # Signs between functions, which are replaced first.
-_RELATION_SIGNS = {
+_LATEX_RELATIONS = {
     r" in ([ZN])\b": r" \\in \\mathbb{\1}",
     r"\+- *": r"\\pm ",
     "!=": r"\\ne",
@@ -279,7 +279,7 @@ def latex_text(text: str) -> str:
     if modulus:
         congruence = latex_text(form).replace("=", r"\equiv")
         return rf"{congruence} \pmod{{{latex_text(modulus)}}}"
-    for pattern, replacement in _RELATION_SIGNS.items():
+    for pattern, replacement in _LATEX_RELATIONS.items():
         text = re.sub(pattern, replacement, text)
     writer = _LatexWriter()
     found = 1

@@ -251,6 +251,18 @@ def test_everything_that_solve_takes_is_an_item() -> None:
     assert item_from(5, {"S": "x", "id": {1, 2}}).error is not None
 
 
+def test_names_are_a_list_or_one_text() -> None:
+    found = [item_from(1, {"S": "x", "names": names}) for names in ("EI mass", ["EI", "mass"], 3)]
+    assert [item.names for item in found] == [("EI", "mass"), ("EI", "mass"), ()]
+    assert "a list of strings" in str(found[2].error)
+
+
+@pytest.mark.parametrize(("S", "label"), [("x^2 + 3", "case 1"), ("x^4 + x^2 + 202*x + 1/4", "undecided")])
+def test_labels_are_those_of_the_answers(S: str, label: str) -> None:
+    record = solve_item(Item(1, S), Job(), Limits(unknown_degree=5))
+    assert label_of(record.data) == record.label == label
+
+
 @pytest.mark.long
 @given(st.text(), st.none() | st.text(), st.dictionaries(st.text().map("k".__add__), st.text()))
 def test_items_survive_the_pipe(pool: Pool, text: str, var: str | None, extra: dict[str, str]) -> None:
