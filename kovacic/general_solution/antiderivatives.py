@@ -228,7 +228,7 @@ def _slope_of_inverse(function: Expr, x: Expr) -> Expr:
     slope = cancel(function.diff(x))
     if isinstance(function, log):
         return sympy.powsimp(sympy.radsimp(slope))
-    if slope.free_symbols == {x} or slope.is_rational_function(x):
+    if slope.is_rational_function(x):
         return slope
     P, square = sympy.fraction(cancel(1 / slope**2))
     c = sympy.powdenest(sqrt(square), force=True)

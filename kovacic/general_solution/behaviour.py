@@ -411,8 +411,6 @@ def value_or_limit(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Ex
     """The value of the function (order 0) or of its slope (order 1), as for `values_at`."""
     check_time()
     e = sympy.sympify(expression, strict=True)
-    if not e.has_free(x):
-        return S.Zero if order else e
     # Steps and impulses have the values just before the point: neither has a slope there.
     e = e.xreplace({jump: _just_before(e, jump, x, point, order) for jump in e.atoms(*_DISCONTINUOUS) if jump.has(x)})
     if order:

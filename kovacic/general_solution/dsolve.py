@@ -69,7 +69,7 @@ from kovacic.general_solution.question import (
     with_given_values,
 )
 from kovacic.general_solution.riccati import solved_riccati
-from kovacic.general_solution.substitution import inverted, size
+from kovacic.general_solution.substitution import inverted
 from kovacic.general_solution.systems import LinearSystem, read_system, solved_system
 from kovacic.general_solution.textbook import in_book_form, without_homogeneous
 from kovacic.general_solution.validity import ZeroSet
@@ -458,8 +458,6 @@ class _Family:
             for constant, factors in zip(constants, (first, second), strict=True)
         )
         general = Mul(*common, sympy.Add(*summands)) + self.particular
-        if self.question.conditions:
-            general = min(general, sympy.expand_mul(general, deep=False), key=size)
         return with_letters_of_integration(self.question.own(general))
 
     def answer(

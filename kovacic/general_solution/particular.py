@@ -129,8 +129,6 @@ def _of_euler(basis: Basis, b: Expr, c: Expr, right: Expr) -> Expr | None:
     """For u = m x + p, b = m beta/u, c = m^2 gamma/u^2: u = e^t gives y_tt + (beta - 1) y_t + gamma y = e^(2t) right/m^2."""
     x = basis.x
     double = sympy.Poly(sympy.denom(b) ** 2 if c == 0 else sympy.denom(c), x)
-    if double.degree() != 2:
-        return None
     root = -double.coeff_monomial(x) / (2 * double.LC())
     u = sympy.numer(sympy.together(x - root))
     m = u.diff(x)
@@ -350,9 +348,7 @@ def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -
     # An exponential for each function that is given by its name, or jumps: the formula holds for any function.
     functions = enumerate(sorted(given, key=str))
     sample = {f: exp(sympy.Rational(k + 1, 3) * x) for k, f in functions if f.has(x)}
-    if sample:
-        y = y.xreplace(sample)
-        right = right.xreplace(sample)
+    y, right = y.xreplace(sample), right.xreplace(sample)
     a, b, c = (sympy.S.Zero,) * (2 - len(coefficients)) + (sympy.S.One, *coefficients)
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
         found = (residual_at(point, x, y, (a, b, c, right)) for point in quadrant_points())

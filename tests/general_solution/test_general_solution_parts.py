@@ -31,15 +31,17 @@ from kovacic.general_solution.behaviour import (
 from kovacic.general_solution.check import is_finite
 from kovacic.general_solution.conditions import read_conditions
 from kovacic.general_solution.constants import CaseOutcome, Row, determine
+from kovacic.general_solution.homogeneous import _real_places
 from kovacic.general_solution.particular import DefiniteIntegral
-from kovacic.general_solution.question import with_floats
+from kovacic.general_solution.question import read_question, with_floats
 from kovacic.general_solution.riccati import RiccatiSolutions
 from kovacic.general_solution.substitution import finite_value
-from kovacic.general_solution.textbook import with_waves
+from kovacic.general_solution.textbook import in_book_form, with_waves
 from kovacic.general_solution.undetermined import undetermined
 from kovacic.general_solution.validity import needed_for
 from kovacic.general_solution.waves import _at_tangent, _continuous_angle, fractions_of_waves, wave_zeros
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
+from kovacic.limits import DEFAULT_LIMITS
 
 x, C1, C2, w = sympy.symbols("x C1 C2 w")
 
@@ -417,7 +419,7 @@ def test_leading_terms_of_hypergeometric_functions(end: Any, top: str, bottom: s
 
 def test_a_wave_has_no_limit_and_a_root_decides_the_sign_of_a_rate() -> None:
     v, p = sympy.symbols("v p", positive=True)
-    assert limit_at(3 * sin(x), x, Approach(oo)) == OSCILLATING
+    assert limit_at(1 + sin(x), x, Approach(oo)) == OSCILLATING
     assert limit_at(exp(x * (v - sqrt(v**2 + 4 * p))), x, Approach(oo)) == 0
 
 
@@ -518,3 +520,27 @@ def test_steps_for_powers_and_without_a_right_hand_side(text: str, said: str) ->
 def test_a_parameter_in_the_conditions_is_no_eigenvalue() -> None:
     assert answer_to("y'' + lambda*y = 0, y(0)=0, y(-L)=0").eq.rhs.has(Symbol("L"))
     assert answer_to("y'' + lambda*y = 0, y(0)=0, y(lambda)=0").eq.rhs == 0
+
+
+def test_an_integral_that_holds_on_one_side_only_is_none() -> None:
+    """sqrt((x - 1)^2) is 1 - x for x < 1."""
+    assert antiderivative(sqrt(x**2 - 2 * x + 1), x) is None
+
+
+def test_coefficients_in_a_sum_are_short() -> None:
+    """The amplitude of a driven oscillator, with m = 1, beside another term."""
+    amplitude = C1 * cos(w * x) / (C2**2 * w**2 + k**2 - 2 * k * w**2 + w**4)
+    assert in_book_form(amplitude + x, x) == C1 * cos(w * x) / (C2**2 * w**2 + (w**2 - k) ** 2) + x
+
+
+def test_a_double_impulse_beside_damping_moves_the_slope() -> None:
+    """y jumps by 1, and y' by -1."""
+    y = sympy.Function("y")
+    found = dsolve(y(x).diff(x, 2) + y(x).diff(x) - sympy.DiracDelta(x - 1, 1), y(x)).rhs
+    assert sympy.expand(found.coeff(sympy.Heaviside(x - 1)) - exp(1 - x)) == 0
+
+
+def test_special_functions_are_real_at_the_point_of_the_values() -> None:
+    """Beyond the singular point 1; about 0 they would be complex there."""
+    asked = read_question("x*(1-x)*y'' + (1/3-x)*y' + y/5 = 0", None, "y(2)=1, y'(2)=0", None, DEFAULT_LIMITS)
+    assert _real_places(asked) == (2,)
