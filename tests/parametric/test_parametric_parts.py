@@ -406,3 +406,11 @@ def test_a_false_group_is_contradicted() -> None:
     false = replace(region, verdict=replace(region.verdict, abelian=NOT_ABELIAN))
     (sentence,) = contradictions(replace(answer, regions=(false,)), point)
     assert sentence.startswith("the identity component is printed as not abelian, and the group is G_m")
+
+
+def test_degrees_on_a_curve_are_given_by_their_equation() -> None:
+    """With free parameters S has other exponents than on the curve: no sum of roots is the degree."""
+    field = FunctionField(("a",))
+    a, d = field.generator("a"), field.poly([0, 1])
+    natural = Natural(RatFunc(d), 4, (over_parameters(d**2 - a**3 - a**2),))
+    assert natural.text() == "d^2 - a^3 - a^2 = 0, d in N, and Delta_d = 0 for an invariant of degree 4"
