@@ -1641,15 +1641,15 @@ class ClassGroup:
         return self.together(double, E) if n % 2 else double
 
     def together(self, E: DivisorPoints, F: DivisorPoints) -> DivisorPoints:
-        """The sum: the ideal of the products of (u, y - v) for both, without the conjugate points over the roots of d."""
+        """The sum: the ideal of the products of (u, y - v) for both, without the conjugate points over the roots of d.
+
+        y - v has further zeros, and their conjugates the same class: fewer points, as long as v has the degree to spare.
+        """
         common, a, b = E.u.xgcd(F.u)
         d, c, e = common.xgcd(E.v + F.v)
         u = (E.u // d) * (F.u // d)
         v = c * a * (E.u // d) * F.v + c * b * (F.u // d) * E.v + e * (E.v * F.v + self.h) // d
-        return self.reduced(u, v % u)
-
-    def reduced(self, u: Any, v: Any) -> DivisorPoints:
-        """y - v has further zeros, and their conjugates the same class: fewer points, as long as v has the degree to spare."""
+        v = v % u
         while u.degree() > self.h.degree() // 2:
             u = (self.h - v * v) // u
             v = -v % u

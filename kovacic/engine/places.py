@@ -305,7 +305,7 @@ def excluded_by_local_data(problem: Problem) -> dict[Structure, NecessaryConditi
 
 def _failures(places: Sequence[Place]) -> Iterator[tuple[Rule, list[Place], list[Structure]]]:
     """The conditions that fail, at which places, and the structures that this excludes."""
-    ramified = _of_kinds(places, Kind.RAMIFIED)
+    ramified = [place for place in places if place.kind is Kind.RAMIFIED]
     if ramified:
         yield Rule.RAMIFIED, ramified, [Structure.REDUCIBLE]
     logarithmic = [place for place in places if place.logarithm]
@@ -314,15 +314,11 @@ def _failures(places: Sequence[Place]) -> Iterator[tuple[Rule, list[Place], list
     branched = ramified + [place for place in places if place.delta is not None and place.delta.denominator == 2]
     if sum(place.degree for place in branched) < 2:
         yield Rule.TOO_FEW_BRANCH_POINTS, branched, [Structure.IMPRIMITIVE]
-    irregular = _of_kinds(places, Kind.RAMIFIED, Kind.UNRAMIFIED)
+    irregular = [place for place in places if place.order > 2]
     if irregular:
         yield Rule.IRREGULAR, irregular, [*_MONODROMY_ORDERS]
-    regular = _of_kinds(places, Kind.REGULAR)
+    regular = [place for place in places if place.kind is Kind.REGULAR]
     for structure, orders in _MONODROMY_ORDERS.items():
         culprits = [place for place in regular if place.delta is None or place.delta.denominator not in orders]
         if culprits:
             yield Rule.EXPONENTS, culprits, [structure]
-
-
-def _of_kinds(places: Sequence[Place], *kinds: Kind) -> list[Place]:
-    return [place for place in places if place.kind in kinds]

@@ -160,7 +160,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
     for piece in f.pieces:
         degree = max(piece.a.degree, piece.b.degree + half)
         pair = cleared(piece.a, degree), cleared(piece.b, degree - half)
-        pieces.append(Piece(piece.exponent, *_without_rational_content(*pair)))
+        pieces.append(Piece(piece.exponent, *f.h.field.ground.cleared(*pair)))
     return CurveFunction(f.multiple, cleared(f.h, 2 * half), tuple(pieces), -cleared(f.rest, half - 2))
 
 
@@ -211,7 +211,7 @@ def _least_function(model: Model, E: Divisor) -> tuple[Poly, Poly]:
         first = second
     if before == after:
         return _shortest_pair(first, second)
-    return _without_rational_content(*(first if before < after else second))
+    return model.h.field.ground.cleared(*(first if before < after else second))
 
 
 def remainders(v: Poly, u: Poly) -> Iterator[tuple[Poly, Poly]]:
@@ -226,11 +226,6 @@ def remainders(v: Poly, u: Poly) -> Iterator[tuple[Poly, Poly]]:
         before, (a, b) = (a, b), (rest, before[1] - quotient * b)
 
 
-def _without_rational_content(a: Poly, b: Poly) -> tuple[Poly, Poly]:
-    """The pair, divided by the rational content of its coordinates."""
-    return a.field.ground.cleared(a, b)
-
-
 def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
     """A short one of the pairs c first + d second; over a field with parameters, simply the first one.
 
@@ -239,8 +234,8 @@ def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple
     """
     field = first[0].field
     if field.ground != QQ:
-        return _without_rational_content(*first)
-    basis = [_without_rational_content(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
+        return field.ground.cleared(*first)
+    basis = [field.ground.cleared(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
     lengths = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
     M = fmpz_mat([[*_integral_coordinates(a, lengths[0]), *_integral_coordinates(b, lengths[1])] for a, b in basis])
     size = len(basis)

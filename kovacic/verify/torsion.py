@@ -96,22 +96,16 @@ def _class_of_poles(eta: Differential, residues: set[Fraction]) -> ReducedDiviso
     if len(by_square) < len(residues):
         raise BadPrimeError("residues agree up to their signs")
     total = curve.zero
-    for q, multiplicity in eta.M.factor()[1]:
-        if multiplicity == 2:
-            points, residue = _pole_modulo(eta, q, by_square)
-            total = curve.sum(total, curve.multiple(int(2 * l * residue), points))
+    for q in (q for q, multiplicity in eta.M.factor()[1] if multiplicity == 2):
+        # y at the points over the roots of q where the residue is 1; it is proportional to the residue.
+        y = q.derivative() * (eta.M // (q * q)) * _inverse_modulo(eta.T // q, q) % q
+        square = eta.h * _inverse_modulo(y * y, q) % q
+        positive = by_square.get(int(square[0]))
+        if square.degree() > 0 or positive is None:
+            raise BadPrimeError("a residue is another one")
+        points = ReducedDivisor(q, y * (positive.numerator * pow(positive.denominator, -1, p) % p))
+        total = curve.sum(total, curve.multiple(int(2 * l * positive), points))
     return total
-
-
-def _pole_modulo(eta: Differential, q: Any, by_square: dict[int, Fraction]) -> tuple[ReducedDivisor, Fraction]:
-    """The points over the roots of q, a double factor of M, where the residue of eta is positive, and this residue."""
-    p = q.modulus()
-    y = q.derivative() * (eta.M // (q * q)) * _inverse_modulo(eta.T // q, q) % q  # where the residue is 1
-    square = eta.h * _inverse_modulo(y * y, q) % q
-    residue = by_square.get(int(square[0]))
-    if square.degree() > 0 or residue is None:
-        raise BadPrimeError("a residue is another one")
-    return ReducedDivisor(q, y * (residue.numerator * pow(residue.denominator, -1, p) % p)), residue
 
 
 def _inverse_modulo(value: Any, modulus: Any) -> Any:
