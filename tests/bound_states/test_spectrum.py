@@ -1280,13 +1280,14 @@ def test_a_norm_has_a_value_for_each_level(V: str, numbers: tuple[int, ...]) -> 
         ("2/x^2 + 3/x", ("-oo", 0), (-90, 0)),
         ("5/sin(x)^2 - 3*cot(x)", ("pi", "2*pi"), (3.1415926, 6.2831853)),
         ("5/sin(x)^2 - 3*cot(x)", ("-pi", 0), (-3.1415926, 0)),
+        ("2/sin(x)^2", ("-pi", 0), (-3.1415926, 0)),
         ("5/sin(x)^2 + 3/cos(x)^2", ("3*pi/2", "2*pi"), (4.712389, 6.2831853)),
         ("5/sin(x)^2 + 3/cos(x)^2", ("-pi/2", 0), (-1.5707963, 0)),
         ("5/sinh(x)^2 - 40/cosh(x)^2", ("-oo", 0), (-30, 0)),
         ("6*tan(x)^2 + 2*tan(x)", ("pi/2", "3*pi/2"), (1.570797, 4.712388)),
     ],
-    ordinary=2,
-    long=(5,),
+    ordinary=(0, 3),
+    long=(6,),
 )
 def test_functions_are_real_in_every_period(V: str, domain: Any, period: tuple[float, float]) -> None:
     """Powers of sin(x/2), which is negative in some of them, and of a distance on the left of 0; with the norm."""

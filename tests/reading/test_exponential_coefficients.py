@@ -268,12 +268,13 @@ def test_values_of_a_closed_form_with_constants_as_initial_values() -> None:
 @parametrize(
     ("equation", "x0", "x", "message"),
     [
+        ("y'' + y/(exp(x) - 1) = 0", "-1/2", "1/2", "analytic near"),
+        ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", 0, 1, "no value at 0, an end of the path"),
         ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", -1, 1, "analytic near"),
         ("y'' = y/(2 + exp(I*x) - exp(2*I*x))", 1, 4, "analytic near 3.14159"),
-        ("y'' + coth(x)*y' - (6 + cosh(x))*y = 0", 0, 1, "no value at 0, an end of the path"),
         ("y'' + y/(exp(x) - 1) = 0", 1, 0, "at the end 0"),
     ],
-    ordinary=1,
+    ordinary=(0, 1),
     long=2,
 )
 def test_singular_points_on_the_way_are_refused(equation: str, x0: Any, x: Any, message: str) -> None:
