@@ -108,7 +108,7 @@ def special(answer: Answer) -> SpecialFunctions:
         plain = {symbol: type(symbol)(name) for name, symbol in symbols.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     if answer.change is not None or answer.letters:
-        pair = replace(pair, known_wronskian=None)
+        pair = replace(pair, wronskian=None)
     return replace(found, pair=_in_given_symbols(answer, _in_given_variable(answer, pair)))
 
 

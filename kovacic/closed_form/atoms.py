@@ -138,18 +138,12 @@ class Atoms:
             c, shown = -c, -shown
         return 1 / self.sqrt(c.inverse()), radical(shown)
 
-    def sqrt_beside(self, value: Poly, g: Poly) -> Expr:
-        """A square root of a constant: a multiple of the s of `root_of`."""
-        c = self.cleared(g)[0]
-        c = -c if self.is_negative(c) else c
-        return self.sqrt(value / c) / self.sqrt(c.inverse())
-
     def is_negative(self, value: Poly) -> bool:
         """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
-        if not isinstance(value, FunctionPoly):
-            return bool(self.constant(value).is_negative)
         known = self.own(self.constant(value)).is_negative
-        return value.is_written_with_minus if known is None else bool(known)
+        if known is None and isinstance(value, FunctionPoly):
+            return value.is_written_with_minus
+        return bool(known)
 
     def generator(self, field: Field) -> Expr:
         """The generator of an algebraic extension."""
@@ -342,10 +336,7 @@ def factors(
     scale: Expr = Mul(*(Integer(-1) ** index for index in turned))
     for factor in found:
         content = atoms.cleared(factor.base)[0]
-        exponent = factor.exponent.field.rational_value(factor.exponent)
-        if exponent is not None and exponent.denominator == 1:
-            scale = scale * atoms.constant(content) ** int(exponent)
-        elif content != 1:
+        if content != 1:  # by the root with which `root_of` is written
             scale = scale * atoms.sqrt(content.inverse()) ** (-2 * atoms.constant(factor.exponent))
     return scale, shown
 

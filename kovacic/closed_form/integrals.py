@@ -37,7 +37,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial
 
 import sympy
 from sympy import Add, Ei, Integer, Mul, Rational, asin, atan, exp, log
@@ -58,6 +57,7 @@ from kovacic.closed_form.primitive import (
 )
 from kovacic.closed_form.product import Power, Product, gathered_powers, grouped_factors, joined, merged
 from kovacic.closed_form.structure import OnCurve, Triangular
+from kovacic.equation import over
 from kovacic.numbers.exact import radical as sqrt
 
 
@@ -102,10 +102,10 @@ def _turned(integral: CurveIntegral) -> CurveIntegral:
 
 def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ...]]:
     """The two solutions, with cos and sin where kappa is imaginary, and notes."""
-    if atoms.at is None:
-        form = _oriented(form, atoms)
-    elif atoms.is_turned(form.integral.g):
-        form = _on_the_other_side(form)
+    if atoms.at is not None and atoms.is_turned(form.integral.g):
+        # -g and -kappa^2 for g and kappa^2: kappa/sqrt(g) = -kappa'/sqrt(g')
+        zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
+        form = OnCurve(form.common, -form.kappa_squared, _turned(form.integral), zeros)
     oscillates = atoms.is_negative(form.kappa_squared)
     kappa = atoms.sqrt(-form.kappa_squared if oscillates else form.kappa_squared)
     terms = _curve_terms(form.integral, atoms, alone=form.zeros is None, exponents=True)
@@ -117,8 +117,6 @@ def exponentials(form: OnCurve, atoms: Atoms) -> tuple[Expr, Expr, tuple[str, ..
         b, B = atoms.primitive(form.zeros.B)
         numbers, roots = (atoms.constant(b / a) * kappa * sqrt(atoms.poly(form.integral.g))).as_coeff_Mul()
         A, B = numbers.q * A, numbers.p * B * roots
-    if not terms.others and not terms.logarithms:
-        return common * A, common * B, terms.notes
     inner = [_times_factor(kappa, term) for term in terms.others]
     powers = [(base, _times_factor(kappa, c)) for c, base in terms.logarithms]
     if oscillates:
@@ -157,23 +155,6 @@ def _times_factor(factor: Expr, term: Expr) -> Expr:
     return sympy.sqrtdenest(sympy.expand_mul(factor * number)) * rest
 
 
-def _oriented(form: OnCurve, atoms: Atoms) -> OnCurve:
-    """With -g and -kappa^2 if all logarithms are real where g < 0: for rational tau^2, two real branch points and no rest."""
-    integral = form.integral
-    if integral.rest or not atoms.real_roots(integral.g):
-        return form
-    units = [unit(integral.g, residue) for residue in integral.residues]
-    values = [None if u is None else u.tau_squared.field.rational_value(u.tau_squared) for u in units]
-    is_other = bool(values) and all(value is not None and value <= 0 for value in values)
-    return _on_the_other_side(form) if is_other else form
-
-
-def _on_the_other_side(form: OnCurve) -> OnCurve:
-    """With -g and -kappa^2 instead of g and kappa^2: kappa/sqrt(g) = -kappa'/sqrt(g')."""
-    zeros = form.zeros and replace(form.zeros, B=-form.zeros.B)
-    return OnCurve(form.common, -form.kappa_squared, _turned(form.integral), zeros)
-
-
 def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponents: bool) -> _Terms:
     """With `exponents` the terms will be exponents, and int dx/sqrt(g) is a logarithm, which becomes a power."""
     root = Mul(*atoms.root_of(integral.g))
@@ -194,7 +175,7 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
         terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
         terms.notes = (f"integral left because {integral.reason}",)
     for u in units:
-        _append_unit(u, root, atoms, terms, integral.g, exponents=exponents)
+        _append_unit(u, root, atoms, terms, integral.g)
     return terms
 
 
@@ -236,18 +217,16 @@ def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
     return sympy.asinh(z)
 
 
-def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, exponents: bool) -> None:
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> None:
     """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
-    has_norm = exponents or u.p is None  # which is a power of kappa/tau
-    root_of = atoms.sqrt if has_norm else partial(atoms.sqrt_beside, g=g)
     factor = Rational(u.factor)
     content, top = atoms.primitive(u.A)
     if atoms.is_negative(u.tau_squared):
-        eta = root_of(-u.tau_squared)
+        eta = atoms.sqrt(-u.tau_squared)
         b, bottom = atoms.primitive(u.B)
         terms.others.append(atan(Mul(atoms.constant(content / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
-    tau = root_of(u.tau_squared)
+    tau = atoms.sqrt(u.tau_squared)
     argument = top + sympy.expand_mul(tau * atoms.poly(u.B / content)) * root
     if u.p is None:
         norm = u.norm(g)
@@ -312,11 +291,8 @@ class _Curve:
 
     def over(self, field: Field) -> _Curve:
         """The curve over a larger field."""
-
-        def lifted(f: RatFunc) -> RatFunc:
-            return RatFunc(f.num.over(field), f.den.over(field), reduced=True)
-
-        return _Curve(lifted(self.r), self.g.over(field), lifted(self.t), self.inner and lifted(self.inner))
+        inner = self.inner and over(self.inner, field)
+        return _Curve(over(self.r, field), self.g.over(field), over(self.t, field), inner)
 
     def moved(self, *points: Poly | None) -> _Curve:
         """In the Moebius function that is 0, 1 and infinity at these points; None stands for infinity."""

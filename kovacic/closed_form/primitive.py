@@ -35,6 +35,13 @@ from kovacic.limits import MOST_CHARACTERS
 
 
 @dataclass(frozen=True)
+class OpenPrimitive:
+    """An integral left unevaluated, with the `reason`."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
 class GammaTerm:
     """`coefficient` * exp(e) times the integral (1)."""
 
@@ -89,19 +96,19 @@ def _kernel_rate(E: RatFunc, alpha: Fraction) -> RatFunc:
 
 def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
     """(beta, n, c) with E = beta x^n + c, or None if E isn't of this form."""
-    c = E.num[0] if E.is_polynomial else E.num // E.den
-    if c.degree > 0:
-        return None
-    rest = E - c
-    n = rest.num.degree - rest.den.degree
     x = RatFunc(E.field.poly([0, 1]))
-    if rest != x**n * rest.num.lc:
+    rate = E.derivative() * x  # n beta x^n
+    n = rate.num.degree - rate.den.degree
+    if rate != x**n * rate.num.lc:
         return None
-    return rest.num.lc, n, c
+    beta = rate.num.lc / n
+    return beta, n, (E - x**n * beta).num[0]
 
 
-def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0)) -> ExponentialPrimitive | str:
-    """int r x^alpha exp(E) dx, or why it is left; alpha isn't an integer other than 0.
+def integrate_exponential(
+    r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0), t: RatFunc | None = None
+) -> ExponentialPrimitive | OpenPrimitive:
+    """int r x^alpha exp(E) dx, with t in place of x in the result; alpha isn't an integer other than 0.
 
     >>> from kovacic.algebra.rationals import QQ
     >>> x = RatFunc(QQ.poly([0, 1]))
@@ -114,16 +121,18 @@ def integrate_exponential(r: RatFunc, E: RatFunc, alpha: Fraction = Fraction(0))
     W, reduced, residues = reduce_poles(r, _kernel_rate(E, alpha), apart)
     at_poles = _at_poles(reduced, residues, E, alpha)
     if at_poles is None or prime_part(at_poles[0].den, apart).degree > 0:
-        return "a pole with a residue remains next to the exponential"
+        return OpenPrimitive("a pole with a residue remains next to the exponential")
     rest, terms, poles = at_poles
     levels = [term.e for term in terms]
     candidates = [term for term in _gamma_candidates(E, alpha) if term.power != -1 or term.e not in levels]
     solved = _with_rational_part(rest, E, alpha, [term.derivative for term in candidates])
     if solved is None:
-        return "it isn't a rational function times the exponential, with Ei and erf of rational functions"
+        return OpenPrimitive(
+            "it isn't a rational function times the exponential, with Ei and erf of rational functions"
+        )
     more, constants = solved
     others = [replace(term, coefficient=c) for term, c in zip(candidates, constants, strict=True) if c]
-    return ExponentialPrimitive(x, E, W + more, alpha, (*terms, *others), tuple(poles))
+    return ExponentialPrimitive(t or x, E, W + more, alpha, (*terms, *others), tuple(poles))
 
 
 def _at_poles(
@@ -165,8 +174,7 @@ def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
     one = E.field.poly([1])
     if not alpha:
         for e in _limit(E):
-            if (E - e).num.degree == 0:
-                yield GammaTerm(one, E - e, one, e, 1, -1)
+            yield GammaTerm(one, E - e, one, e, 1, -1)
         for q, b, e in _squares(E):
             yield GammaTerm(one, q, b, e, 2, 0)
     shape = monomial(E) if E else None
@@ -257,13 +265,6 @@ class RationalPrimitive:
         return self.parts.derivative
 
 
-@dataclass(frozen=True)
-class OpenPrimitive:
-    """An integral left unevaluated, with the `reason`."""
-
-    reason: str
-
-
 #: int r k dx, with r as `integrand` and k'/k as `kernel_derivative`.
 Primitive = RationalPrimitive | CurveIntegral | ExponentialPrimitive | OpenPrimitive
 
@@ -293,21 +294,16 @@ def integrate(h: Product) -> Primitive:
     >>> print(done.W, [(str(term.coefficient), term.n, term.power) for term in done.terms])
     (-x**2 + 2)/(6*x**3 - 18*x) [('1/6', 2, 0)]
     """
-    found = _integral_or_reason(h)
-    return OpenPrimitive(found) if isinstance(found, str) else found
-
-
-def _integral_or_reason(h: Product) -> Primitive | str:
     if h.roots:
-        return f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers"
+        return OpenPrimitive(f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers")
     rational = RatFunc(h.field.poly([1]))
     fractional: list[_Root] = []
     for power in h.powers:
         exponent = power.rational_exponent
         if exponent is None:
-            return f"the exponent at {power.base} is irrational"
+            return OpenPrimitive(f"the exponent at {power.base} is irrational")
         if abs(exponent) > MOST_CHARACTERS:  # the integral would be a sum of about as many terms
-            return f"the factor {power.base} has the power {exponent} in the integrand"
+            return OpenPrimitive(f"the factor {power.base} has the power {exponent} in the integrand")
         if exponent.denominator == 1:
             rational = rational * RatFunc(power.base) ** int(exponent)
         else:
@@ -322,8 +318,8 @@ _Root = tuple[Poly, Fraction]
 """p^alpha for a polynomial p and a fraction alpha."""
 
 
-def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitive | str:
-    """int r k dx for a product k of roots, or why it is left."""
+def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitive:
+    """int r k dx for a product k of roots."""
     if not fractional:
         return RationalPrimitive(decompose(rational))
     if all(alpha.denominator == 2 for _, alpha in fractional):
@@ -336,55 +332,42 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
         first, second = (*fractional, (rational.field.poly([1]), -fractional[0][1]))[:2]
         if (first[1] + second[1]).denominator == 1:
             return _with_a_quotient(rational, first, second)
-    return "it is an incomplete beta integral, with fractional powers of several factors"
+    return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
 
 
-def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive | str:
+def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitive:
     """int r p^alpha q^beta dx for p = x + c, q = x + d or 1, and an integer alpha + beta, by t = p/q."""
     (p, alpha), (q, beta) = first, second
     x = RatFunc(p.field.poly([-p[0], q[0]]), p.field.poly([1, -q[1]]))  # t (q_1 x + q_0) = x + p_0
     r = rational(x) * RatFunc(q)(x) ** int(alpha + beta) * x.derivative()
     shift = floor(alpha) + 1  # to an exponent between -1 and 0
     t = RatFunc(p.field.poly([0, 1]))
-    found = integrate_exponential(r * t**shift, r * 0, alpha - shift)
-    return found if isinstance(found, str) else replace(found, t=RatFunc(p, q))
+    return integrate_exponential(r * t**shift, r * 0, alpha - shift, RatFunc(p, q))
 
 
-def _exponential_primitive(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive | str:
-    """int r k exp(E) dx for at most one root k of a linear polynomial, or why it is left: in x less a centre."""
+def _exponential_primitive(r: RatFunc, fractional: list[_Root], E: RatFunc) -> Primitive:
+    """int r k exp(E) dx for at most one root k of a linear polynomial: in x less a centre."""
     if len(fractional) > 1 or any(p.degree > 1 for p, _ in fractional):
-        return "the integrand has an exponential and fractional powers of several factors"
+        return OpenPrimitive("the integrand has an exponential and fractional powers of several factors")
     alpha = fractional[0][1] if fractional else Fraction(0)
     centre = _centre(fractional, E)
-    moved = RatFunc(r.field.poly([centre[0], 1]))
-    if not fractional and monomial(E(moved)) is None:
-        return integrate_exponential(r, E)
-    found = integrate_exponential(r(moved), E(moved), alpha)
-    if isinstance(found, str):
-        return found
-    return replace(found, t=RatFunc(r.field.poly([-centre[0], 1])))
+    moved, back = (RatFunc(r.field.poly([c, 1])) for c in (centre[0], -centre[0]))
+    return integrate_exponential(r(moved), E(moved), alpha, back)
 
 
 def _centre(fractional: list[_Root], E: RatFunc) -> Poly:
-    """The zero of the root, else the mean of the poles, or of the zeros of a polynomial; 0 for a linear one."""
-    below = E.den
+    """The zero of the root, else the mean of the poles, or of the zeros of a polynomial."""
+    below = E.num if E.is_polynomial else E.den
     if fractional:
         below = fractional[0][0]
-    elif E.is_polynomial:
-        below = E.num
-        if below.degree == 1:
-            return below * 0
     n = below.degree
     return -below[n - 1] / (below.lc * n)
 
 
 def normalised_constant(exact: RatFunc) -> RatFunc:
-    """The antiderivative that vanishes at a multiple zero of the integrand, or has the least degree in the numerator."""
-    slope = exact.derivative()
-    multiple = [(p, k) for p, k in exact.field.factor(slope.num) if p.degree == 1 and k > 1]
-    if multiple:
-        p, _ = max(multiple, key=lambda pair: pair[1])
-        return exact - exact.num * exact.den.inverse_modulo(p) % p
-    if exact.num.degree != exact.den.degree or exact.den.degree <= 0:
+    """The antiderivative that vanishes at the zero of the integrand of the highest multiplicity, if that isn't 1."""
+    multiple = [(k, p) for p, k in exact.field.factor(exact.derivative().num) if p.degree == 1 and k > 1]
+    if not multiple:
         return exact
-    return exact - exact.num.lc
+    _, p = max(multiple, key=lambda pair: pair[0])
+    return exact - exact.num * exact.den.inverse_modulo(p) % p

@@ -146,8 +146,6 @@ def conjugate_roots(form: Conjugate, atoms: Atoms) -> tuple[Expr, Expr]:
 
 def is_turned(equation: Equation, y: Expr) -> bool:
     """True if a solution is written by exp(i w): with t = exp(i w), or with sqrt(t^2 - 1) for a sine t."""
-    if equation.change is None:
-        return False
     t, f = sympy.Symbol(equation.variable), function_of_x(equation)
     is_sine = f.func in (sympy.sin, sympy.cos)
     return bool(f.has(sympy.I)) or (is_sine and any(power.base == t**2 - 1 for power in y.atoms(sympy.Pow)))

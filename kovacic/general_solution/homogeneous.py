@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -61,8 +62,8 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         if not has_poles and not any(question.own(condition) == 0 for condition in form.undefined):
             # in t the quotient has values at more points
             in_t = partial(multiple_of, kernel(question.equation), form.y1, form.y2, form.variable)
-            pair = WrittenPair(form.y1, form.y2, in_t if is_changed else None, form.undefined, form.place)
-            return replace(_basis(question, solution, pair), form=form)
+            pair = WrittenPair(form.y1, form.y2, None, form.undefined, form.place)
+            return replace(_basis(question, solution, pair, in_t if is_changed else None), form=form)
     found = _in_special_functions(question, solution, budget)
     if not isinstance(found, BySign):
         return _basis(question, solution, found)
@@ -71,14 +72,16 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
     return replace(basis, natural=question.own(found.integer), otherwise=otherwise)
 
 
-def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
-    """The solutions in the user's variable."""
+def _basis(
+    question: Question, solution: Solution, pair: WrittenPair, in_t: Callable[[], Expr | None] | None = None
+) -> Basis:
+    """The solutions in the user's variable; `in_t` gives the Wronskian of those in t where the pair hasn't got it."""
     equation = question.equation
     if is_in_power(equation):  # whose exponent has plain symbols
         plain = {symbol: Symbol(name) for name, symbol in question.parameters.items()}
         pair = pair.mapped(lambda e: e.xreplace(plain))
     y1, y2 = (y.xreplace(NUMBERS) for y in pair_in_x(equation, *pair))
-    rests_on = (equation, question.own, partial(_stated, equation, pair), pair.undefined, solution)
+    rests_on = (equation, question.own, partial(_stated, equation, pair, in_t), pair.undefined, solution)
     basis = Basis(y1, y2, question.x, *rests_on, place=pair.place if equation.change is None else None)
     S = equation.S
     constant = S.num[0] if S.is_polynomial and S.num.degree == 0 else None
@@ -91,9 +94,9 @@ def _basis(question: Question, solution: Solution, pair: WrittenPair) -> Basis:
     return basis.of(y1, y2)
 
 
-def _stated(equation: Equation, pair: WrittenPair) -> Expr | None:
+def _stated(equation: Equation, pair: WrittenPair, in_t: Callable[[], Expr | None] | None) -> Expr | None:
     """The Wronskian in the user's variable of the members as `solution_in_x` writes them, up to constant factors; or None."""
-    W = pair.wronskian
+    W = pair.wronskian if in_t is None else in_t()
     if W is None or equation.change is None or not sympy.Tuple(*pair).has(Symbol(equation.variable)):
         return W
     if any(is_turned(equation, y) for y in pair):  # by constants that are left out
@@ -163,11 +166,11 @@ def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None
 def _without_second_kind(pair: WrittenPair) -> WrittenPair:
     """J_-nu for Y_nu = (J_nu cos(pi nu) - J_-nu)/sin(pi nu), where nu is no integer."""
     second = [f for f in pair.y2.atoms(sympy.bessely) if f.args[0].is_noninteger]
-    if not second or pair.known_wronskian is None:
+    if not second or pair.wronskian is None:
         return pair
     nu = second[0].args[0]
     y2 = pair.y2.xreplace({f: sympy.besselj(-nu, f.args[1]) for f in second})
-    return replace(pair, y2=y2, known_wronskian=lambda: -sympy.sin(sympy.pi * nu) * pair.wronskian)
+    return replace(pair, y2=y2, wronskian=-sympy.sin(sympy.pi * nu) * pair.wronskian)
 
 
 def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str:

@@ -55,9 +55,8 @@ class Airy(StandardEquation):
 
         z = writer.root(self.q, 3) * writer.argument(f)
         before = writer.factor(f, ())
-        return writer.pair(
-            (before, sympy.airyai(z)), (before, sympy.airybi(z)), lambda: z.diff(writer.atoms.x) / sympy.pi
-        )
+        bracket = z.diff(writer.atoms.x) / sympy.pi
+        return writer.pair((before, sympy.airyai(z)), (before, sympy.airybi(z)), bracket)
 
     @property
     def parameters(self) -> list[fmpq]:

@@ -72,7 +72,7 @@ class Bessel(StandardEquation):
 
     @property
     def name(self) -> str:
-        return "Bessel's"
+        return "Whittaker's" if self.q and self.r else "Bessel's"
 
     @property
     def S(self) -> RatFunc:
@@ -194,7 +194,7 @@ def written_pair(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
             for m in (nu, -nu)
         )
         # t^((1 + nu)/2) and t^((1 - nu)/2) are the leading terms at t = 0.
-        return writer.pair(first, second, lambda: -writer.constant(nu) * writer.rate(t), (nu,))
+        return writer.pair(first, second, -writer.constant(nu) * writer.rate(t), (nu,))
     modified = writer.is_negative(writer.scale(t))
     four_t = t * -4 if modified else t * 4
     z = writer.root_of(four_t)
@@ -207,7 +207,7 @@ def written_pair(writer: Writer, nu_squared: Poly, t: RatFunc) -> WrittenPair:
         kinds, order, power, bracket = (sympy.jn, sympy.yn), degree, Fraction(3, 4), rate / z
     before = writer.factor(t, [(Surd(nu.part * 0 + power), t)])
     first, second = ((before, kind(writer.constant(order), z, evaluate=False)) for kind in kinds)
-    return writer.pair(first, second, lambda: bracket)
+    return writer.pair(first, second, bracket)
 
 
 # ------------------------------------------------------------------------------------------ values

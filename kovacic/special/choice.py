@@ -136,10 +136,7 @@ def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
     if form.place is not None:
         return form
     pair, x = (form.y1, form.y2), form.variable
-    arguments = arguments_with_cuts(Tuple(*pair))
-    if not arguments:
-        return form
-    place = common_place(x, arguments)
+    place = common_place(x, arguments_with_cuts(Tuple(*pair)))
     y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
     return form if (y1, y2) == pair else replace(form, y1=y1, y2=y2, place=place)
 
@@ -238,20 +235,18 @@ class _Equation:
         if found is None:
             return None
         pair = found.y1, found.y2
-        pairs = [pair]
+        mixed: list[tuple[Any, Any]] = []
         x = Symbol(self.variable)
         is_short = self.decision.series is None and not self._is_long
         if self.decision.case == 1 and is_short and isinstance(self.structure, Triangular):
             y1 = one_exponential(display(self.structure.first, Atoms(x), around_zero=True))
             if _length(y1) <= max(map(_length, pair)) and is_numerical_solution(y1, x, self.S, self.gauge):
-                pairs = [*((y1, y2) for y2 in pair), pair]
+                mixed = [(y1, y2) for y2 in pair]
         # In an irreducible equation what differs by its exponents is independent.
         is_sure = self.decision.case != 1 or (found.wronskian is not None and is_nonzero(found.wronskian, x))
-        chosen = pair if is_sure and len(pairs) == 1 else independent(pairs, x)
+        chosen = independent(mixed, x) or pair if is_sure else independent([*mixed, pair], x)
         if chosen is None:
-            if not is_sure:
-                return None
-            chosen = pair
+            return None
         place = found.place if chosen == pair else None
         return self._form(chosen, undefined=found.undefined, place=place)
 

@@ -34,7 +34,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 from itertools import chain, product
 from math import nan
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -50,6 +49,7 @@ from kovacic.closed_form.structure import PLACES, Covariants
 from kovacic.compatibility import cached_property
 from kovacic.decision import Structure
 from kovacic.engine.places import Problem, analyse, rational_square_root
+from kovacic.equation import over
 from kovacic.special import prices
 from kovacic.special.maps import HALF, Orbit, Surd, coverings, regular_points
 from kovacic.special.pullback import (
@@ -102,8 +102,7 @@ class Gauss(StandardEquation):
         different = [place.factor for place in problem.places if place.delta_squared is None]
         if different:
             if extended and different[0].degree == 2:  # conjugate places are separated over a larger field
-                field = AlgebraicField(problem.field, different[0])
-                S = RatFunc(problem.S.num.over(field), problem.S.den.over(field), reduced=True)
+                S = over(problem.S, AlgebraicField(problem.field, different[0]))
                 yield from cls.candidates(analyse(S, problem.budget), extended=extended)
             return
         points, apparent = (regular_points(problem, apparent=flag) for flag in (False, True))
@@ -385,7 +384,7 @@ def _named_function(form: _GaussForm) -> tuple[Expr, Expr]:
 def _at_one_point(form: _GaussForm) -> WrittenPair:
     """u and the solution with -alpha: their leading terms are z^((1 - alpha)/2) and z^((1 + alpha)/2)."""
     first, second = form.shorter, form.turned.shorter
-    bracket = partial(first.bracket, second, form.writer.constant(form.alpha))
+    bracket = first.bracket(second, form.writer.constant(form.alpha))
     return form.writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.inside)
 
 
@@ -396,13 +395,9 @@ def _at_two_points(form: _GaussForm, other: _GaussForm) -> WrittenPair:
     writer = form.writer
     own = replace(form, beta=other.alpha)  # u doesn't depend on the sign of beta
     first, second = form.shorter, other.shorter
-
-    def bracket() -> Expr:
-        a, b, alpha, beta = map(writer.constant, (*own.upper, own.alpha, own.beta))
-        W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
-        return first.bracket(second, W)
-
-    return writer.pair(first.term, second.term, bracket, (form.alpha,), real_at=form.between)
+    a, b, alpha, beta = map(writer.constant, (*own.upper, own.alpha, own.beta))
+    W = -sympy.gamma(1 - alpha) * sympy.gamma(1 - beta) / (sympy.gamma(a) * sympy.gamma(b))
+    return writer.pair(first.term, second.term, first.bracket(second, W), (form.alpha,), real_at=form.between)
 
 
 def _reducible_pair(writer: Writer, forms: list[_GaussForm]) -> WrittenPair | None:
@@ -458,14 +453,14 @@ def _gegenbauer_pair(form: _GaussForm) -> WrittenPair:
         scale = (-1) ** a * sympy.factorial(2 * a) / (2**a * sympy.factorial(a))
         bracket *= scale * writer.argument(4 * form.f * (1 - form.f)) ** (a / 2)
     shown = polynomial.as_independent(writer.atoms.x, as_Add=False)[1]  # P_N(-z) is (-1)^N P_N(z)
-    return writer.pair((before, shown), second, lambda: bracket * shown / polynomial)
+    return writer.pair((before, shown), second, bracket * shown / polynomial)
 
 
 def _by_parity(form: _GaussForm) -> WrittenPair:
     """Both, with powers that are real between the two points, or at 0."""
     import sympy
 
-    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity, real_at=form.line_at(HALF) or sympy.S.Zero)
+    return form.writer.pair(*_even_and_odd(form), form.bracket_of_parity(), real_at=form.line_at(HALF) or sympy.S.Zero)
 
 
 def _even_and_odd(form: _GaussForm) -> tuple[WrittenTerm, WrittenTerm]:
@@ -545,7 +540,8 @@ def _hypergeometric_solution(e0: Any, e1: Any, e2: Any, *, mirrored: bool) -> St
     a = (1 + e0 + e1 + e2) / 2
     b = (1 + e0 + e1 - e2) / 2
     c = 1 + e0
-    whole = [is_integer(v) for v in (e2, a - c, b - c, e1)]
+    # whether a - b and c - a - b are integers, which balls don't show; of a - c and b - c FLINT makes no use
+    whole = is_integer(e2), False, False, is_integer(e1)
     first = acb(a)
     second = acb(b)
     third = acb(c)

@@ -121,11 +121,6 @@ class PolarPart:
     residue: Poly
 
 
-def half_rate(m: Poly) -> RatFunc:
-    """The logarithmic derivative of sqrt(m)."""
-    return RatFunc(m.derivative(), m) * Fraction(1, 2)
-
-
 def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
     """int sqrt(S/q) dx at an unramified place, up to its sign.
 
@@ -371,30 +366,26 @@ def _count(points: Iterable[Orbit]) -> int:
     return sum(point.degree for point in points)
 
 
-def fibres(points: list[Orbit], most: int) -> Iterator[Fibre]:
-    """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities."""
-    for chosen in _commensurable(points, most):
+def fibres(points: list[Orbit], most: int, chosen: tuple[Orbit, ...] = ()) -> Iterator[Fibre]:
+    """Every set of points that can be a whole fibre of a function of degree `most` or less, with its multiplicities.
+
+    These have rational quotients of their exponent differences, and begin with the chosen ones.
+    """
+    if chosen:
         # The smallest natural numbers in the proportion of the exponent differences; where these are 0 the multiplicities are
         # free, and only equal ones are tried.
         ratios = [_ratio(point, chosen[0]) or Fraction(1) for point in chosen]
         unit = Fraction(gcd(*(r.numerator for r in ratios)), lcm(*(r.denominator for r in ratios)))
         least = [int(ratio / unit) for ratio in ratios]
         size = sum(m * point.degree for m, point in zip(least, chosen, strict=True))
+        if size > most:  # with more points it only grows
+            return
         for k in range(1, most // size + 1):
             multiplicities = tuple((point, k * m) for point, m in zip(chosen, least, strict=True))
-            square = chosen[0].square * Fraction(1, (k * least[0]) ** 2)
-            yield Fibre(multiplicities, square)
-
-
-def _commensurable(points: list[Orbit], most: int, chosen: tuple[Orbit, ...] = ()) -> Iterator[tuple[Orbit, ...]]:
-    """Sets of at most `most` points with rational quotients of their exponent differences that begin with the chosen ones."""
-    if chosen:
-        yield chosen
-    left = most - _count(chosen)
+            yield Fibre(multiplicities, chosen[0].square * Fraction(1, (k * least[0]) ** 2))
     for k, point in enumerate(points):
-        goes_with_others = not chosen or _ratio(point, chosen[0]) is not None
-        if goes_with_others and point.degree <= left:
-            yield from _commensurable(points[k + 1 :], most, (*chosen, point))
+        if not chosen or _ratio(point, chosen[0]) is not None:
+            yield from fibres(points[k + 1 :], most, (*chosen, point))
 
 
 def _ratio(point: Orbit, other: Orbit) -> Fraction | None:

@@ -68,4 +68,4 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
     if z.could_extract_minus_sign():  # one function is even, the other odd
         z = -z
     W = factor**2 * z.diff(x) * mathieuc(a, q, 0) * mathieusprime(a, q, 0)  # Mathieu's equation has no w'
-    return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), lambda: W)
+    return WrittenPair(factor * mathieuc(a, q, z), factor * mathieus(a, q, z), W)

@@ -27,10 +27,11 @@ from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.closed_form.structure import logarithmic_derivative
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work
-from kovacic.special.maps import TRIAL, half_rate
+from kovacic.special.maps import TRIAL
 
 if TYPE_CHECKING:
     from kovacic.special.maps import Surd
@@ -224,7 +225,7 @@ class GaugeTransform:
 
     def _derivatives(self, c: RatFunc) -> tuple[RatFunc, RatFunc, RatFunc]:
         """c, and over sqrt(m) the first two derivatives of sqrt(m) c."""
-        rate = half_rate(self.m)
+        rate = logarithmic_derivative(self.m) / 2
         dc = c.derivative() + rate * c
         return c, dc, dc.derivative() + rate * dc
 

@@ -36,6 +36,7 @@ from kovacic.algebra.factors import dependence
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
+from kovacic.closed_form.structure import logarithmic_derivative
 from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
@@ -44,7 +45,7 @@ from kovacic.numbers.numerals import as_latex, as_text
 from kovacic.special.airy import Airy
 from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
-from kovacic.special.maps import TRIAL, half_rate, integral_of_square_root, irregular_places, scales
+from kovacic.special.maps import TRIAL, integral_of_square_root, irregular_places, scales
 from kovacic.special.pullback import GaugeTransform, Pullback, StandardEquation
 from kovacic.special.whittaker import Whittaker
 
@@ -169,7 +170,7 @@ def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Po
         return None
     count_work(size * size if parameters_of(S.field) else size)  # over Q(t) the numbers grow with the size
     zero = RatFunc(one * 0)
-    rate = half_rate(m) + R.derivative() / R  # u'/u
+    rate = logarithmic_derivative(m) / 2 + R.derivative() / R  # u'/u
 
     def derived(operator: _Operator) -> _Operator:
         pairs = zip([*operator, zero], [zero, *operator], strict=True)

@@ -25,9 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
 from itertools import product
-from operator import mul
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
@@ -61,10 +59,6 @@ class Whittaker(Bessel):
     """S0 = q - r/z + M/z^2, q != 0."""
 
     searched: ClassVar[str] = "Whittaker's equation (with Kummer's, Weber's and Bessel's) in f(x), f rational"
-
-    @property
-    def name(self) -> str:
-        return "Whittaker's" if self.r else super().name
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
@@ -239,17 +233,17 @@ def _kummer_or_tricomi(form: _WhittakerForm) -> WrittenPair:
     writer = form.writer
     mu = form.mu
     if not writer.is_integer(2 * mu):
-        return writer.pair(form.kummer(mu), form.kummer(-mu), partial(form.bracket, mu), (2 * mu,))
+        return writer.pair(form.kummer(mu), form.kummer(-mu), form.bracket(mu), (2 * mu,))
     natural = next((m for m in (mu, -mu) if writer.is_natural(2 * m)), None)
     reducible = any(writer.is_integer(form.kappa + m - HALF) for m in (mu, -mu))
     if natural is None or reducible:
-        return writer.pair(form.turned.tricomi, form.tricomi, lambda: -form.slope)  # exp(z/2), exp(-z/2) at infinity
+        return writer.pair(form.turned.tricomi, form.tricomi, -form.slope)  # exp(z/2), exp(-z/2) at infinity
     own = form.positive
     m, kappa = map(writer.constant, (natural, own.kappa))
     W = -sympy.gamma(1 + 2 * m) / sympy.gamma(m - kappa + sympy.S.Half)
     power = own.z ** sympy.expand(-m - kappa - sympy.S.Half)
     before = sympy.exp((form.z + own.z) / 2)  # 1F1(a; b; z) = exp(z) 1F1(b - a; b; -z)
-    return writer.pair(form.kummer(natural), own.tricomi, lambda: W * before * power * own.slope)
+    return writer.pair(form.kummer(natural), own.tricomi, W * before * power * own.slope)
 
 
 def _hermite(form: _WhittakerForm) -> WrittenPair | None:
@@ -269,7 +263,7 @@ def _hermite(form: _WhittakerForm) -> WrittenPair | None:
     scale = 2**N / sympy.sqrt(sympy.pi)
     other, W = writer.by_parity(N, even, odd, scale * sympy.gamma((N + 1) / 2), 2 * scale * sympy.gamma(N / 2 + 1))
     bracket = W * sympy.exp(form.z) * root.diff(writer.atoms.x)
-    return writer.pair((before, sympy.hermite(N, root)), (before, other), lambda: bracket)
+    return writer.pair((before, sympy.hermite(N, root)), (before, other), bracket)
 
 
 def _laguerre_pair(form: _WhittakerForm) -> WrittenPair | None:
@@ -289,8 +283,8 @@ def _laguerre_pair(form: _WhittakerForm) -> WrittenPair | None:
         if integer:  # (-z)^N/N! exp(-z/2) and exp(z/2) at infinity; L_N(0) = (a + 1)_N/N!
             # (a + 1)_N isn't multiplied out if N is a number: it may be large
             scale = sympy.factorial(N) if is_named else sympy.rf(a + 1, N, evaluate=not N.is_Number)
-            return writer.pair(first, form.turned.tricomi, partial(mul, (-form.z) ** N / scale, form.slope))
+            return writer.pair(first, form.turned.tricomi, (-form.z) ** N / scale * form.slope)
         if is_named:
             multiple = sympy.gamma(N + a + 1) / sympy.gamma(N + 1) / sympy.gamma(a + 1)
-            return writer.pair(first, form.kummer(-mu), partial(form.bracket, mu, multiple), (2 * mu,))
+            return writer.pair(first, form.kummer(-mu), form.bracket(mu, multiple), (2 * mu,))
     return None

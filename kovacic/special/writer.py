@@ -24,9 +24,9 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
 from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
-from kovacic.compatibility import cached_property
+from kovacic.closed_form.structure import logarithmic_derivative
 from kovacic.numbers.exact import radical
-from kovacic.special.maps import HALF, Surd, half_rate
+from kovacic.special.maps import HALF, Surd
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ class WrittenPair:
     ----------
     y1, y2 : sympy.Expr
         The solutions.
-    known_wronskian : callable or None
-        Gives y1 y2' - y1' y2, which is computed on demand; None if no closed form is known.
+    wronskian : sympy.Expr or None
+        y1 y2' - y1' y2, or None if no closed form is known.
     undefined : tuple of sympy.Expr
         One of the solutions is undefined wherever one of these is zero.
     place : sympy.Expr or None
@@ -59,18 +59,9 @@ class WrittenPair:
 
     y1: Expr
     y2: Expr
-    known_wronskian: Callable[[], Expr] | None = field(default=None, compare=False, repr=False)
+    wronskian: Expr | None = field(default=None, compare=False, repr=False)
     undefined: tuple[Expr, ...] = ()
     place: Expr | None = None
-
-    @cached_property
-    def wronskian(self) -> Expr | None:
-        """y1 y2' - y1' y2, or None if no closed form is known."""
-        return None if self.known_wronskian is None else self.known_wronskian()
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        known = None if self.wronskian is None else partial(Mul, self.wronskian)
-        return WrittenPair, (self.y1, self.y2, known, self.undefined, self.place)
 
     def __iter__(self) -> Iterator[Expr]:
         return iter((self.y1, self.y2))
@@ -88,9 +79,8 @@ class WrittenPair:
         WrittenPair
             The pair of the images.
         """
-        known = None if self.known_wronskian is None else lambda: function(self.wronskian)
-        undefined = tuple(map(function, self.undefined))
-        return WrittenPair(function(self.y1), function(self.y2), known, undefined, self.place)
+        W = self.wronskian and function(self.wronskian)
+        return WrittenPair(function(self.y1), function(self.y2), W, tuple(map(function, self.undefined)), self.place)
 
 
 #: Powers and exponentials, and the special function that they are multiplied with.
@@ -199,14 +189,14 @@ class Writer:
         self,
         first: WrittenTerm,
         second: WrittenTerm,
-        bracket: Callable[[], Expr] | None = None,
+        bracket: Expr | None = None,
         undefined: Iterable[Surd] = (),
         *,
         real_at: Expr | None = None,
     ) -> WrittenPair:
         """The solutions P1 F1 and P2 F2, the one with fewer factors first.
 
-        `bracket` gives (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2:
+        `bracket` is (P2'/P2 - P1'/P1) F1 F2 + F1 F2' - F1' F2, which doesn't change with constant factors of P1 and P2:
         times P1 P2 it is the Wronskian.  A member has no value where one of the numbers `undefined` is an integer.
         With `real_at` the powers are real at that point, or at the first of the places.
         """
@@ -215,20 +205,18 @@ class Writer:
         members = [self._member(*term, atoms) for term in (first, second)]
         is_turned_round = self.transform is None and second[0].size < first[0].size
         (y, C), (z, D) = members[::-1] if is_turned_round else members
-        known = None
+        W = None
         if bracket is not None and C is not None and D is not None:
-            known = partial(self._wronskian, -C if is_turned_round else C, D, bracket)
+            scale = -1 if is_turned_round else 1
+            if self.transform is not None:
+                scale *= self.atoms.factored(self.transform.factor / self.transform.m)
+            others, rational = _by_rationality(C * D * scale, self.atoms.x)
+            W = others * sympy.factor(rational) * bracket
         # An antiderivative shows its poles itself, and with the elementary member it has a Wronskian without series.
         shows_poles = any(isinstance(F, sympy.hyper) and antiderivative_parameters(F) for _, F in (first, second))
         numbers = () if shows_poles else map(self.constant, filter(self.has_letters, undefined))
         place = at if at is not None and at.is_number else None
-        return WrittenPair(y, z, known, tuple(map(_sine_of_letters, numbers)), place)
-
-    def _wronskian(self, C: Expr, D: Expr, bracket: Callable[[], Expr]) -> Expr:
-        """The Wronskian from the bracket of two members, and the factors before their functions."""
-        scale = 1 if self.transform is None else self.atoms.factored(self.transform.factor / self.transform.m)
-        others, rational = _by_rationality(C * D * scale, self.atoms.x)
-        return others * sympy.factor(rational) * bracket()
+        return WrittenPair(y, z, W, tuple(map(_sine_of_letters, numbers)), place)
 
     def _member(self, before: WrittenFactor, function: Expr, atoms: Atoms) -> tuple[Expr, Expr | None]:
         """A solution, and the factor before its function, or None if that isn't known."""
@@ -254,14 +242,14 @@ class Writer:
         of_F = _in_lowest_terms(rate + b * s)
         of_other = _in_lowest_terms(b * t) or of_F  # F1 = 0
         n, d = sympy.fraction(sympy.together(_in_lowest_terms(of_F / of_other)))
-        total = before.product.logarithmic_derivative + half_rate(transform.m)
+        total = before.product.logarithmic_derivative + logarithmic_derivative(transform.m) / 2
         bracket = n * function + d * root * other
         shared = sympy.factor(of_other / d).as_independent(x, as_Add=False)[1]
         parts = [sympy.Poly(part, x) for part in shared.as_numer_denom()]
         if total.field == QQ and all(c.is_Rational for part in parts for c in part.all_coeffs()):
             for part, sign in zip(parts, (1, -1), strict=True):
                 p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(part.all_coeffs())])
-                total = total + RatFunc(p.derivative(), p) * sign
+                total = total + logarithmic_derivative(p) * sign
             return Mul(display(product(total), atoms), *before.others, bracket), None
         powers = Mul(display(product(total), atoms), *before.others)
         others, rational = _by_rationality(powers, x)

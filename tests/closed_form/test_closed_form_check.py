@@ -319,9 +319,12 @@ def test_structure_needs_no_sympy(S: str, kind: type) -> None:
     assert isinstance(build(answer.S, answer.decision, answer.gauge), kind)
 
 
-def test_gathered_zeros_are_the_spread_ones() -> None:
+@pytest.mark.parametrize(
+    "equation", ["(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)", "x*(1-x)*y'' + (1/2 - 3*x)*y' - 5/7*y"], ids=["2", "1, odd"]
+)
+def test_gathered_zeros_are_the_spread_ones(equation: str) -> None:
     """The short form and the one with a square root and logarithms at the zeros have the same logarithmic derivatives."""
-    answer = kovacic.solve("(-32*x^2+32*x+8613)/(144*x^2*(x-1)^2)")
+    answer = kovacic.solve(equation)
     form = build(answer.S, answer.decision, answer.gauge)
     assert isinstance(form, OnCurve)
     assert form.zeros is not None

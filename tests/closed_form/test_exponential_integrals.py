@@ -35,3 +35,12 @@ def test_second_solutions(integrand: sympy.Expr, functions: set) -> None:
     for y in form:
         rest = (y.diff(x, 2) - S * y).subs(x, sympy.Rational(17, 10))
         assert abs(sympy.N(rest, 30)) < 1e-25 * (1 + abs(sympy.N(y.subs(x, sympy.Rational(17, 10)), 30)))
+
+
+def test_incomplete_gamma_functions_and_poles_at_irrational_points() -> None:
+    """y1^-2 = x^(-1/3) exp(-x) and exp(x)/(x^2 - 2): the sum over both poles is written out."""
+    (_, y2), (_, z2) = (
+        kovacic.solve(S).solutions for S in ("1/4 + 1/(6*x) - 5/(36*x^2)", "1/4 - x/(x^2 - 2) - 2/(x^2 - 2)^2")
+    )
+    assert y2.atoms(sympy.uppergamma) == {sympy.uppergamma(sympy.Rational(2, 3), x)}
+    assert z2.atoms(Ei) == {Ei(x - sympy.sqrt(2)), Ei(x + sympy.sqrt(2))}

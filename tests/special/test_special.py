@@ -22,6 +22,7 @@ import kovacic.errors
 from kovacic import Limits
 from kovacic.numbers.numerals import as_latex
 from kovacic.special.airy import Airy
+from kovacic.special.bessel import Bessel
 from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import EQUATIONS, find, special_functions
@@ -334,6 +335,23 @@ def test_dsolve_gives_polynomials_where_the_degree_is_a_natural_number() -> None
     assert hermite.coeff(sympy.Symbol("C1")) == sympy.hermite(n, t)
 
 
+@pytest.mark.parametrize(
+    "pullback",
+    [
+        Pullback(Bessel(*map(QQ.poly, ([], [1], [Fraction(-2, 9)]))), X**2 - X),  # a pole whose order is even
+        Pullback(Whittaker(*map(QQ.poly, ([1], [], [Fraction(-2, 9)]))), X + 1 / X),  # both signs of the polar parts
+        Pullback(Whittaker(*map(QQ.poly, ([1], [], [Fraction(-2, 9)]))), X - 1 / X),
+        Pullback(Whittaker(*map(QQ.poly, ([2], [1], [Fraction(-2, 9)]))), X / (X**2 + 1)),  # 2 is no square
+    ],
+    ids=str,
+)
+def test_pull_backs_of_special_kinds(pullback: Pullback) -> None:
+    S = pullback.S
+    found = find(S, Budget()).pullback
+    assert found is not None
+    assert pull_back(found.equation.S, found.f) == S
+
+
 def test_powers_of_high_degree() -> None:
     standard = hypergeometric(Fraction(1, 7), Fraction(2, 5), Fraction(1, 11))
     for f in (X**20, 1 / (X**9 + 3), (X**9 + 2) / (X**9 - 1)):
@@ -565,7 +583,7 @@ def test_values_of_mathieus_functions(coefficient: str) -> None:
 def test_roots_in_complex_exponents_keep_their_branches(text: str) -> None:
     """Powers of x are made real between the singular points; sqrt(-i) in an exponent is no such power."""
     answer = kovacic.solve(f"y'' + ({text})*y = 0")
-    assert answer.case is not None or answer.special is not None
+    assert answer.solutions or answer.special
 
 
 def test_lowest_terms_where_the_heuristic_gcd_gives_up() -> None:
@@ -591,6 +609,11 @@ def test_solutions_are_real_on_the_half_line_or_between_singular_points(
 ) -> None:
     for y in kovacic.solve(equation).special:
         assert all(abs(mpmath.im(function(y, {})(mpmath.mpf(point)))) < 1e-12 for point in points), y
+
+
+def test_powers_with_irrational_exponents_are_real_between_the_singular_points() -> None:
+    pair = kovacic.solve("4*x*(x-1)^2*y'' + 2*(3*x-1)*(x-1)*y' + (a*x+b)*y = 0", var="x").special
+    assert all("(1 - x)**" in str(y) and "(x - 1)**" not in str(y) for y in pair)
 
 
 @pytest.mark.parametrize("degree", [1, 6, 25])
@@ -670,6 +693,13 @@ def test_derivatives_of_named_functions_are_written_by_such(S: str, transform: t
         assert not y.has(sympy.Derivative)
         value = c2 * sympy.diff(y, x, 2) + c1 * sympy.diff(y, x) + c0 * y
         assert abs(function(value, {"n": mpmath.mpf(3) / 7})(POINT)) < 1e-8
+
+
+def test_an_exponent_that_is_half_an_integer_and_a_letter() -> None:
+    """x^(l + 1) and x^-l for the oscillator with l(l + 1)/x^2, functions of x^2: dependent where l + 1/2 is an integer."""
+    pair = kovacic.solve("y'' = (x^2 + l*(l+1)/x^2 - E)*y", var="x").special.pair
+    assert pair is not None
+    assert pair.undefined == (sympy.sin(sympy.pi * (sympy.Symbol("l") + sympy.S.Half)),)
 
 
 @parametrize("degree", [1, 5, 0], ordinary=0, long=(0, 2))
