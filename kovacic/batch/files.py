@@ -82,6 +82,8 @@ def count_items(name: str, *, form: str | None = None) -> int:
 
 def item_from(number: int, value: Any, *, var: str | None = None, limits: Limits = DEFAULT_LIMITS) -> Item:
     """The item of anything that `kovacic.solve` takes, or of a mapping with the keys of a line of JSONL."""
+    if isinstance(value, Item):  # as `scan_items` gives them
+        return value
     if isinstance(value, str | Mapping):
         return _item_of(number, value, str(value), var)
     from kovacic.reading.read import read_input

@@ -422,13 +422,20 @@ def fitted(text: str) -> str:
     if not sys.stdout.isatty():
         return text
     from shutil import get_terminal_size
-    from textwrap import TextWrapper
 
-    wrapper = TextWrapper(get_terminal_size().columns, break_long_words=False, break_on_hyphens=False)
+    width = get_terminal_size().columns
     lines = []
     for line in text.splitlines():
-        wrapper.subsequent_indent = " " * (len(line) - len(line.lstrip()) + 2)
-        lines += [line] if _TABLE_ROW.search(line) or not line.strip() else wrapper.wrap(line)
+        indent = " " * (len(line) - len(line.lstrip()) + 2)
+        while len(click.unstyle(line)) > width and not _TABLE_ROW.search(line):
+            end = len(line)
+            while end > 0 and len(click.unstyle(line[:end])) > width:
+                end = line.rfind(" ", len(indent), end)
+            if end <= 0:  # a formula without spaces
+                break
+            lines.append(line[:end])
+            line = indent + line[end:].lstrip()
+        lines.append(line)
     return "\n".join(lines)
 
 

@@ -249,6 +249,7 @@ def test_everything_that_solve_takes_is_an_item() -> None:
     assert item_from(3, {"S": "t", "var": "t", "id": 5}) == Item(3, "t", "t", {"id": 5})
     assert item_from(4, object()).error is not None
     assert item_from(5, {"S": "x", "id": {1, 2}}).error is not None
+    assert item_from(6, Item(9, "x")) == Item(9, "x")
 
 
 def test_names_are_a_list_or_one_text() -> None:
