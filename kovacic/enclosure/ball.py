@@ -475,14 +475,13 @@ def _decimal(number: Dyadic) -> Decimal:
 
 def _reaches(a: Ball, b: Ball, sign: int) -> bool:
     """True if the distance of the midpoints is at most the radius of a plus `sign` times that of b, decided exactly."""
-    for bits in (256, 4 * DEFAULT_LIMITS.bits):  # the latter suffice to be exact, unless the exponents are huge
-        with working_precision(bits):
-            reach = arb(a.rad) + sign * arb(b.rad)
-            distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
-            if reach < 0 or distance > reach * reach:
-                return False
-            if reach >= 0 and distance <= reach * reach:
-                return True
+    with working_precision(4 * DEFAULT_LIMITS.bits):  # exact, unless the exponents are huge
+        reach = arb(a.rad) + sign * arb(b.rad)
+        distance = (arb(a.re) - arb(b.re)) ** 2 + (arb(a.im) - arb(b.im)) ** 2
+        if reach < 0 or distance > reach * reach:
+            return False
+        if reach >= 0 and distance <= reach * reach:
+            return True
     raise OverflowError("the balls can't be compared: their exponents are too far apart")
 
 

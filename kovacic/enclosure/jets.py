@@ -74,7 +74,7 @@ class Divided(sympy.Function):  # type: ignore[misc]
 
 def without_removable(e: Any, x: Any) -> Any:
     """The function without removable singularities at the zeros of its polynomial factors."""
-    if not e.has(x) or e.is_rational_function(x):
+    if not e.has(x) or e.is_rational_function(x):  # in lowest terms; else a first value takes a sixth more
         return e
     plain = e
     for function, quotient in _QUOTIENTS.items():

@@ -25,8 +25,7 @@ class Journey:
     """From the start along the polygon `vertices`, then from its end a straight line to each target, or (`chain`) from
     target to target.  `side` says on which side of the real axis singular points on it are passed ("above", "below").
 
-    `problem` is the equation where its coefficients are rational, `routes` the choices of `kovacic.enclosure.states` by what
-    they depend on.
+    `problem` is the equation where its coefficients are rational.
     """
 
     way: Way
@@ -35,7 +34,6 @@ class Journey:
     chain: bool = False
     side: str | None = None
     problem: NumericProblem | None = None
-    routes: dict[Any, Any] = field(default_factory=dict, init=False)
     _begun: dict[tuple[Closed | None, int], Traveller] = field(default_factory=dict, init=False)
 
     @property

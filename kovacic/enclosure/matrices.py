@@ -11,6 +11,7 @@ State = tuple["acb", "acb"]  # (y, y')
 Matrix = tuple["acb", "acb", "acb", "acb"]  # (m11, m12, m21, m22)
 Affine = tuple[Matrix, State]  # v -> M v + p
 NOTHING: State = (acb(0), acb(0))
+IDENTITY: Matrix = (acb(1), acb(0), acb(0), acb(1))
 
 
 def multiply(m: Matrix, n: Matrix) -> Matrix:
@@ -41,11 +42,6 @@ def inverse_matrix(m: Matrix) -> Matrix:
 def fundamental(first: State, second: State) -> Matrix:
     """The matrix with the states (y, y') of two solutions as its columns."""
     return first[0], second[0], first[1], second[1]
-
-
-def identity() -> Matrix:
-    """The identity matrix."""
-    return acb(1), acb(0), acb(0), acb(1)
 
 
 def apply(m: Matrix, v: State) -> State:
@@ -92,7 +88,7 @@ class MapProduct:
 
     def whole(self) -> Affine:
         """A_k ... A_1."""
-        total = self._parts[0][1] if self._parts else (identity(), NOTHING)
+        total = self._parts[0][1] if self._parts else (IDENTITY, NOTHING)
         for _, part in self._parts[1:]:
             total = compose(part, total)
         return total

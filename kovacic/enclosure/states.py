@@ -65,11 +65,7 @@ def route_of(journey: Journey, targets: Sequence[Number], method: Method | None,
     problem = journey.problem
     if problem is None or problem.right is not None or not problem.is_rational:
         return None
-    key = tuple(_ways(journey, targets)), len(targets), digits
-    if key not in journey.routes:
-        journey.routes[key] = _chosen(journey, problem, *key)
-    found: ClosedRoute | None = journey.routes[key]
-    return found
+    return _chosen(journey, problem, tuple(_ways(journey, targets)), len(targets), digits)
 
 
 def _required(journey: Journey, digits: int) -> ClosedRoute:
@@ -87,6 +83,7 @@ def _required(journey: Journey, digits: int) -> ClosedRoute:
     return classical, start_bits(digits + classical.lost_digits(journey.place))
 
 
+@lru_cache(maxsize=64)
 def _chosen(journey: Journey, problem: NumericProblem, ways: Ways, count: int, digits: int) -> ClosedRoute | None:
     """That of case 1, or FLINT's functions, sought for a share of the time that Taylor's method would take; from a singular
     point on the functions always pay."""

@@ -23,6 +23,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.frame import foreseen_growth
 from kovacic.enclosure.frobenius import limit
 from kovacic.enclosure.matrices import (
+    IDENTITY,
     NOTHING,
     Affine,
     MapProduct,
@@ -31,7 +32,6 @@ from kovacic.enclosure.matrices import (
     adjugate,
     apply,
     fundamental,
-    identity,
     multiply,
 )
 from kovacic.enclosure.points import (
@@ -283,11 +283,11 @@ class Way(ABC):
 
     def into(self, x: ExactPoint) -> Matrix:
         """From the user's (y, y') at x to the carried state."""
-        return identity()
+        return IDENTITY
 
     def out_of(self, a: ExactPoint, x: ExactPoint) -> Matrix:
         """Back to the user's (y, y') at x, at the end of the straight line from a."""
-        return identity()
+        return IDENTITY
 
     def horizon(self, here: ExactPoint, stop: ExactPoint) -> ExactPoint:
         """The end of the ray that serves this target and nearer ones: at the next power of two."""

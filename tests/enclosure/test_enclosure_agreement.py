@@ -96,6 +96,7 @@ def test_matrices_that_cannot_tell_say_so() -> None:
     assert "trivial" in airy.reason
     larger = agrees_with_group(kovacic.solve(OCTAHEDRAL), claimed(GroupKind.SL2))
     assert larger.verdict is None
+    assert "don't exclude every smaller group" in larger.reason
 
 
 @parametrize(
