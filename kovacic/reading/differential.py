@@ -83,18 +83,27 @@ class EquationReader(RationalReader):
             raise NotLinear(f"the operator d/d{self.variable} is applied to nothing", hint=hint)
         return {**value.parts} if isinstance(value, LinearForm) else {REST: value}
 
+    def check_order(self, order: int, text: str | None, expected: int = 2) -> None:
+        """Raise `NotLinear` unless the order of an equation is the expected one; it is -1 without y."""
+        if order == expected:
+            return
+        y = self.unknown or UNKNOWN
+        kind, hint = {1: ("first", f"for example {y}' = x {y}"), 2: ("second", f"for example {y}'' = (x^2 + 3) {y}")}[
+            expected
+        ]
+        what = f"is of order {order}" if order > 0 else f"contains no derivative of {y}"
+        said = f"an equation of {kind} order is expected, and this one {what}"
+        if order <= 0 and "=" in (text or ""):
+            hint += "; S alone is written without an equals sign"
+        position = None if text is None else 0
+        raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
+
     def equation_of(self, value: Any, text: str | None) -> Equation:
         """The equation `value` = 0, for a linear form that was read from `text`."""
         parts = self.parts(value)
         rest = parts.pop(REST, ZERO)
         coefficients = {k: self.arithmetic.rational(c) for k, c in parts.items()}
-        order = max((k for k, c in coefficients.items() if c), default=0)
-        if order != 2:
-            what = f"is of order {order}" if order else f"contains no derivative of {self.unknown}"
-            said = f"an equation of second order is expected, and this one {what}"
-            hint = f"for example {self.unknown}'' = (x^2 + 3) {self.unknown}; S alone is written without an equals sign"
-            position = None if text is None else 0
-            raise NotLinear(said, hint=hint, text=text, position=position, length=len(text or ""))
+        self.check_order(max((k for k, c in coefficients.items() if c), default=0), text)
         h = None
         if not is_plain(rest):  # its rational terms, and h, minus the sum of its other ones
             from kovacic.reading.symbolic import walked

@@ -145,8 +145,7 @@ def parts_of(source: Source, order: int = 2) -> tuple[Sequence[Any], list[str]]:
     if not source.unknown:  # S alone
         parts = {2: ONE, 0: reader.arithmetic.negate(value)}
     found = {k: reader.arithmetic.expression(c) for k, c in parts.items()}
-    if max(found, default=0) != order:
-        raise NotLinear(f"a linear equation of order {order} is expected")
+    reader.check_order(max(found, default=0), source.text, order)
     return [found.get(k, sympy.Integer(0)) for k in (*range(order, -1, -1), REST)], reader.notices()
 
 

@@ -152,6 +152,10 @@ def test_parameters_have_values_in_the_equation_and_in_the_conditions():
 def test_a_parameter_that_is_not_linear_is_refused():
     with pytest.raises(kovacic.InputError, match="linear in y and in k"):
         eigenvalues("y'' + k^2*y = 0", "y(0)=0, y(1)=0", parameter="k")
+    with pytest.raises(kovacic.NotLinear, match="contains no derivative of y"):  # a potential alone
+        kovacic.eigenvalues("x^4")
+    with pytest.raises(kovacic.NotLinear, match="is of order 1"):
+        kovacic.eigenvalues("y' + lambda*y = 0")
 
 
 def test_answers_are_sequences_that_can_be_pickled():
