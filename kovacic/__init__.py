@@ -28,6 +28,7 @@ _PUBLIC_NAMES = {
     "enclosure.request": ("Accuracy", "Start"),
     "equation": ("Equation",),
     "errors": (
+        "UnsatisfiableConditions",
         "InputError",
         "KovacicError",
         "LimitExceeded",

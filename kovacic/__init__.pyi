@@ -23,6 +23,7 @@ from kovacic.errors import MissingExtra as MissingExtra
 from kovacic.errors import NotLinear as NotLinear
 from kovacic.errors import NotRational as NotRational
 from kovacic.errors import ParseError as ParseError
+from kovacic.errors import UnsatisfiableConditions as UnsatisfiableConditions
 from kovacic.errors import VerificationFailed as VerificationFailed
 from kovacic.general_solution import answer_to as answer_to
 from kovacic.general_solution import dsolve as dsolve

@@ -96,6 +96,10 @@ class NotLinear(InputError):
     """The equation is readable, but isn't linear of second order."""
 
 
+class UnsatisfiableConditions(InputError):
+    """No solution of the equation has all of the given values, or satisfies all of the conditions."""
+
+
 class LimitExceeded(KovacicError):
     """A limit of `kovacic.limits.Limits` was reached; `limit` is the name of its field."""
 

@@ -26,7 +26,7 @@ from sympy import Eq, Mul
 from kovacic.closed_form.cuts import arguments_with_cuts, common_place
 from kovacic.decision import Status
 from kovacic.equation import EULER
-from kovacic.errors import InputError, LimitExceeded, warn_user
+from kovacic.errors import InputError, LimitExceeded, UnsatisfiableConditions, warn_user
 from kovacic.general_solution.answer import (
     Exceptional,
     FirstOrderAnswer,
@@ -162,9 +162,10 @@ def dsolve(
 
     Raises
     ------
+    UnsatisfiableConditions
+        If no solution has the given values.  It is an `InputError`.
     InputError
-        For any other equation, if no solution has the given values, and for points on two sides of a singular point.  It is
-        a `ValueError`.
+        For any other equation, and for points on two sides of a singular point.  It is a `ValueError`.
     NotImplementedError
         If no solutions are found, with the reason, or a limit was reached; and if a question about a constant, or about the
         behaviour at a singular point, isn't decided.
@@ -420,7 +421,7 @@ class _Asked:
         try:
             equation, function, conditions = at(place.values)
             there = _Asked(self.budget.share(0.5).limits, is_exceptional=True).answer(equation, function, conditions)
-        except _Contradiction:
+        except UnsatisfiableConditions:
             return "there is no solution"
         except (InputError, NotImplementedError):
             return None
@@ -496,10 +497,6 @@ class _Family:
         return [f"{where}, where{only} {found.lhs} = {found.rhs}"]
 
 
-class _Contradiction(InputError):
-    """No solution has all of the given values."""
-
-
 def _are_same(formulas: Sequence[Expr], others: Sequence[Expr], letters: Collection[Expr]) -> bool:
     """True for equal formulas, and for one p + C u and q + C v with constant u/v and (p - q)/v; C isn't one of the letters."""
     pairs = [(one.rhs, other.rhs) for one, other in zip(formulas, others, strict=True)]
@@ -537,7 +534,7 @@ def _general(question: Question, basis: Basis) -> SecondOrderAnswer:
 
 
 def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderAnswer:
-    """The answer with the constants that the conditions determine.  Raises `InputError` if they contradict one another."""
+    """The answer with the constants that the conditions determine.  Raises `UnsatisfiableConditions` if none do."""
     limits = limit_points(question)
     start = start_of(question, limits)
     basis = basis_real_at(basis, start)
@@ -556,7 +553,7 @@ def _determined(question: Question, basis: Basis, asked: _Asked) -> SecondOrderA
         singular = [str(point) for point, place in limits.items() if not place.is_infinite]
         if singular:
             said += f" ({' and '.join(singular)} is a singular point of the equation)"
-        raise _Contradiction(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
+        raise UnsatisfiableConditions(said + (f", unless {'; or '.join(exceptions)}" if exceptions else ""))
     unchecked = check_answer(question, value, start, limits, natural=basis.natural, letters=letters)
     notices = [*orders, *unchecked, *(f"this holds unless {said}" for said in exceptions)]
     return family.answer(value, notices, unchecked, determined)

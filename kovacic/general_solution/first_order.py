@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
 from kovacic.closed_form.cuts import with_positive_factors
 from kovacic.closed_form.product import product
-from kovacic.errors import InputError, VerificationFailed
+from kovacic.errors import InputError, UnsatisfiableConditions, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_or_limit
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
@@ -232,7 +232,7 @@ class CheckedSolution(NamedTuple):
 
 
 def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) -> CheckedSolution:
-    """The solution by (1), with a constant that isn't `taken`.  Raises `InputError` for a value that no solution has."""
+    """The solution by (1), with a constant that isn't `taken`.  Raises `UnsatisfiableConditions` for a value that none has."""
     p, q, x, place = equation.p, equation.q, equation.x, equation.place
     start, _ = equation.value
     h = starting_at(turned_at(place, equation.homogeneous(), (-q,), _ZERO, x), x, start)
@@ -360,8 +360,8 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
     raise _without_value(a)
 
 
-def _without_value(a: Expr) -> InputError:
-    return InputError(f"there is no solution with this value at {a}, a singular point of the equation")
+def _without_value(a: Expr) -> UnsatisfiableConditions:
+    return UnsatisfiableConditions(f"there is no solution with this value at {a}, a singular point of the equation")
 
 
 def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:

@@ -21,7 +21,7 @@ from sympy.solvers.ode.systems import ODEOrderError, linear_ode_to_matrix
 from sympy.solvers.solveset import NonlinearError
 
 from kovacic.equation import eliminated
-from kovacic.errors import InputError, NotLinear
+from kovacic.errors import InputError, NotLinear, UnsatisfiableConditions
 from kovacic.general_solution.answer import vanishes_with
 from kovacic.general_solution.conditions import symbols_of
 from kovacic.general_solution.constants import CaseOutcome, Row, determine
@@ -146,7 +146,7 @@ def _unknowns(whole: Sequence[Expr], functions: Sequence[Any] | None) -> tuple[E
 
 
 def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
-    """x(t) and y(t), put into both equations.  Raises `InputError` for values that no solution has."""
+    """x(t) and y(t), put into both equations.  Raises `UnsatisfiableConditions` for values that no solution has."""
     for condition in given.conditions:
         if not condition.is_value or condition.terms[0].order:
             raise InputError(f"{condition.text}: a system has values of its unknowns")
@@ -237,7 +237,7 @@ def _with_constants(
         rows.append(Row(there.diff(c1), there.diff(c2), condition.value - there.subs({c1: 0, c2: 0})))
     generic, others, _ = determine(rows, (c1, c2), scale=scale)
     if generic.outcome is CaseOutcome.NONE:
-        raise InputError("there is no solution with these values: the conditions contradict one another")
+        raise UnsatisfiableConditions("there is no solution with these values: the conditions contradict one another")
     values = dict(zip(constants, generic.values, strict=True))
     zeros = [zero for case in others if case.is_possible for zero in case.zeros]
     return pair.subs(values, simultaneous=True), zeros

@@ -161,7 +161,7 @@ def test_a_value_where_the_square_has_no_coefficient(coefficients_as_text: tuple
 def test_values_at_singular_points() -> None:
     assert kovacic.dsolve("x*w' = w + w^2", ics="w(0)=0").rhs.has(C1)
     assert kovacic.dsolve("x*w' = w + w^2", ics="w(0)=-1").rhs == -1
-    with pytest.raises(kovacic.InputError, match="no solution with this value at 0, a singular point"):
+    with pytest.raises(kovacic.UnsatisfiableConditions, match="no solution with this value at 0, a singular point"):
         kovacic.dsolve("x*w' = w + w^2", ics="w(0)=1")
 
 
