@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
@@ -19,14 +20,15 @@ from build import Conditions, parametrize, run
 from parametric_cases import hypergeometric
 
 import kovacic
+from kovacic.decision import Structure
 from kovacic.parametric.api import Sampler
 from kovacic.parametric.prose import text_of_words
-from kovacic.parametric.regions import solvable_cases
+from kovacic.parametric.regions import Theory, solvable_cases
 from kovacic.parametric.riemann import Schwarz, kimura_structure
 from kovacic.parametric.solutions import families_of
-from kovacic.parametric.statements import Both, Either, Statement
+from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.views.theorem import blocks
-from kovacic.writing.document import Formula, Math, Paragraph, Table
+from kovacic.writing.document import Formula, Math, Paragraph, Table, format_of
 
 R = sympy.Rational
 x = sympy.Symbol("x")
@@ -551,3 +553,55 @@ def test_cases_are_said_to_be_those_of_the_normal_form(format: str) -> None:
     """Without an empty formula where there is no change of variable."""
     written = kovacic.conditions("y'' - 2*x*y' + 2*n*y = 0", var="x").theorem(format=format)
     assert "Cases and groups are those of the normal form.\n" in written
+
+
+def in_text(answer: Conditions) -> str:
+    return "".join(format_of("text").render([*blocks(answer)]))
+
+
+def test_three_alternatives_are_a_table_and_two_are_a_sentence() -> None:
+    answer = kovacic.conditions("l*(l+1)/x^2 + k", var="x")
+    zero, integer = answer.regions
+    assert isinstance(zero.statement, Vanishes)
+    k = zero.statement.function
+    rows = [Both((Vanishes(k - number), integer.statement)) for number in (-3, 2, 5)]
+    for first, second in pairwise(rows):
+        several = Either((first, second))
+        text = in_text(replace(answer, regions=(replace(zero, statement=several),)))
+        assert f"\n\n{several.text()}.\n" in text
+        assert "table" not in text
+    text = in_text(replace(answer, regions=(replace(zero, statement=Either(tuple(rows))), integer)))
+    table = "where   condition\n------  ---------\nk = -3  l in Z\nk = 2   l in Z\nk = 5   l in Z\n"
+    assert f"\n\n(1) one row of the table holds:\n\n{table}\nCase 1. " in text
+
+
+def test_schwarz_table_has_its_reference_beside_every_theory() -> None:
+    answer = kovacic.conditions(hypergeometric(("l", "1/2", "n")), var="x")
+    other = replace(answer, theory=Theory("the exponents", "AMW11"), regions=answer.regions[2:3])
+    assert re.findall(r"\[(\w+)\] ", in_text(other)) == ["AMW11", "Kim69"]
+    other = replace(other, regions=answer.regions[1:2])
+    assert re.findall(r"\[(\w+)\] ", in_text(other)) == ["AMW11"]
+
+
+def test_signs_and_determinants_are_written_once() -> None:
+    theorem = kovacic.conditions("k*(1+g/x)", var="x").theorem()
+    assert theorem.count("is a natural number, with a choice of epsilon and zeta from +-1.") == 1
+    assert theorem.count(" y = ") == 2
+    quartic = kovacic.conditions("x^4 + a*x^2 + b*x + c", var="x", max_degree=1).theorem()
+    assert "d  where        Delta_d\n" in quartic
+    assert "\n0  b = -2 or 2  a^2 - 4*c\n1  b = -4 or 4  a^4 - 8*a^2*c + 32*a + 16*c^2\n\n" in quartic
+
+
+def test_the_first_regions_fill_a_screen() -> None:
+    """24 of them; one more needs no more lines than to say that there is another one."""
+    answer = kovacic.conditions("l*(l+1)/x^2 + k", var="x")
+    cases = [replace(answer.regions[0].verdict, structure=structure) for structure in (None, Structure.REDUCIBLE)]
+    for number, shown in ((25, 25), (26, 24), (29, 24)):
+        regions = tuple(replace(answer.regions[0], verdict=cases[i % 2]) for i in range(number))
+        many = replace(answer, regions=regions)
+        first, *lines, generic, _ = many.text().splitlines()
+        assert first == "y'' = ((k*x^2 + l^2 + l)/x^2) y, parameters l, k"
+        assert generic == "  otherwise: no Liouvillian solution"
+        assert lines[:shown] == [f"  {region}" for region in regions[:shown]]
+        assert lines[shown:] == [f"  ... and {number - 24} more regions: text(all=True), or --all"] * (number > 25)
+        assert len(many.text(all=True).splitlines()) == number + 3
