@@ -20,6 +20,8 @@ from hypothesis import strategies as st
 import kovacic
 from kovacic import Ball, InputError, Limits, Solution
 from kovacic.ball import RollingBall as Body
+from kovacic.numbers.exact import exact, exact_text, is_complex, radical
+from kovacic.numbers.numerals import as_latex, as_text, plain_text
 
 NUMPY = {scalar for scalar in np.sctypeDict.values() if issubclass(scalar, np.number | np.bool_)} - {np.timedelta64}
 KINDS: dict[str, Any] = {
@@ -210,3 +212,78 @@ def test_a_double_is_its_binary_value_and_text_its_decimal_one(double: float) ->
         assert ball.is_exact()
         assert ball.midpoint == (Fraction(double), 0)
     assert kovacic.evaluate("0", f"{Decimal(double):f}", x0=0, y0=0, dy0=1).contains(Fraction(double))
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (mpmath.mpc(3, "0.5"), (3, Fraction(1, 2))),
+        (mpmath.mpf("-0.75"), (Fraction(-3, 4), 0)),
+        (sympy.Float("1.5") + 2 * sympy.I / 3, (Fraction(3, 2), Fraction(2, 3))),
+        (flint.acb(2, -0.25), (2, Fraction(-1, 4))),
+        (np.complex64(2 - 3j), (2, -3)),
+        (np.array(Fraction(2, 3), dtype=object), (Fraction(2, 3), 0)),
+        (Ball.exact(3, 2), (12, 0)),
+        ("-12.5e-1", (Fraction(-5, 4), 0)),
+        (" +6/4 ", (Fraction(3, 2), 0)),
+        (Decimal("1e-100000"), (Fraction(1, 10**100000), 0)),
+        (mpmath.ldexp(mpmath.mpf(1), -400000), (Fraction(1, 2**400000), 0)),
+    ],
+)
+def test_numbers_of_libraries_are_read_exactly(value: Any, expected: tuple[Fraction, Fraction]) -> None:
+    assert tuple(Fraction(int(part.p), int(part.q)) for part in exact(value, "x")) == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (mpmath.matrix([[1]]), "x isn't a number that is known exactly"),
+        (Limits(), "x isn't a number that is known exactly"),
+        (np.array([2, 3]), "x isn't a number that is known exactly"),
+        (flint.nmod(3, 7), "x isn't a number that is known exactly"),
+        (sympy.sqrt(2), "x isn't a number that is known exactly"),
+        (Ball((3, 0), rad=(1, -1)), "x is a ball of positive radius"),
+        (flint.acb(2, flint.arb(3, 0.5)), "x is a ball of positive radius"),
+        (flint.acb(flint.arb(3, 0.5), 2), "x is a ball of positive radius"),
+        (mpmath.mpc(0, "inf"), "x isn't a finite number"),
+        (Decimal("nan"), "x = NaN isn't a finite number"),
+        (Decimal("2e100001"), "x = 2E[+]100001 has an exponent beyond 100000"),
+        ("2e-100001", "x = 2e-100001 has an exponent beyond 100000"),
+        (mpmath.ldexp(mpmath.mpf(1), 400001), "x has a binary exponent beyond 400000"),
+        ("3/0", "x = 3/0 divides by zero"),
+        (True, "x is a truth value"),
+    ],
+)
+def test_what_is_no_exact_number_is_refused(value: Any, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        exact(value, "x")
+
+
+def test_numbers_of_libraries_within_formulas() -> None:
+    """A number of SymPy is written as it is, and a complex one of mpmath is recognised."""
+    assert exact_text(sympy.sqrt(2) / 3, "n") == "sqrt(2)/3"
+    assert exact_text(mpmath.mpf("0.75"), "n") == "3/4"
+    assert exact_text(np.float32(0.1), "n") == "0.1"
+    assert [*map(is_complex, (mpmath.mpc(1, 2), mpmath.mpf(2), np.complex128(2), np.float64(2), 2j, 2.0))] == [
+        *(True, False) * 3
+    ]
+
+
+def test_long_numbers_are_written() -> None:
+    """Python refuses integers of more than 4300 digits, and SymPy roots of an order of that length."""
+    x, c = sympy.symbols("x c")
+    assert plain_text([10**5000]) == "list"
+    assert plain_text(["x", 3]) == "['x', 3]"
+    assert as_latex(sympy.Pow(x, sympy.Rational(2, 3**3000))).startswith(r"x^{\frac{2}{23")
+    assert len(as_latex(sympy.Pow(x, sympy.Rational(1, 10**5000)))) == 5001 + len(r"x^{\frac{1}{}}")
+    assert as_latex(sympy.Pow(x, sympy.Rational(1, 2**128))).startswith(r"x^{\frac{1}{")
+    assert as_latex(sympy.Pow(x, sympy.Rational(1, 2**127))).startswith(r"\sqrt[")
+    assert as_latex(sympy.root(x, 3)) == r"\sqrt[3]{x}"
+    assert as_latex(sympy.Rational(-2, 7) * x) == r"- \frac{2 x}{7}"
+    assert as_text(x**2 - c + x / 3 + 2) == "-c + x**2 + x/3 + 2"
+    assert as_text(c * x**3 - x + 2 * c, x) == "c*x**3 - x + 2*c"
+    assert as_text(x - c, x) == "x - c"
+    assert as_text(sympy.sin(x) - c + x, x) == as_text(sympy.sin(x) - c + x)
+    assert radical(sympy.Integer(3) ** 1001) == 3**500 * sympy.sqrt(3)
+    with pytest.raises(kovacic.LimitExceeded, match="a root of a number of 1744 bits, above the limit of 1600"):
+        radical(sympy.Integer(3) ** 1100)
