@@ -167,8 +167,13 @@ class PolynomialSolution:
         needed = (-first - 1, -second - 1, sympy.expand(-first - second - 2))
         if any(number.is_number and natural_value(number) is None for number in needed):
             return ()
-        a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         name = str(self.degree) if self.degree.is_Symbol else d
+        if first.is_number and second.is_number:
+            least, most = max(-first, -second), -first - second - 1
+            return prose.phrase(
+                f", unless `{name} = {least}`" if least == most else f", unless `{least} <= {name} <= {most}`"
+            )
+        a, b = (caret(as_text(parameter)) for parameter in self.jacobi)
         if a == b:
             return prose.phrase(f", unless `{a}` is an integer with `-{name} <= {a} < -{name}/2`")
         return prose.phrase(f", unless `{a}` and `{b}` are integers from `-{name}` to -1 with a sum below `-{name}`")

@@ -63,7 +63,7 @@ from kovacic.algebra.ratfunc import RatFunc
 from kovacic.decision import Structure
 from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.parametric import restriction, riemann
-from kovacic.parametric.claims import Classes, irreducible_factors, signed_sums
+from kovacic.parametric.claims import Classes, irreducible_factors, rational_number, signed_sums
 from kovacic.parametric.exponents import singular_places
 from kovacic.parametric.formulas import has_roots, in_sum, root_written, shifted, shorter_sum, shortest_form
 from kovacic.parametric.integers import integer_roots
@@ -305,7 +305,8 @@ def _whittaker_group(beta_squared: Poly, delta_squared: Poly, n: int) -> RegionV
     delta = rational_square_root(delta_squared / n**2)
     if not beta_squared:
         return reducible("`G_m`")
-    if delta is not None and (delta.denominator > 1 or not delta):
+    is_constant = delta is not None or rational_number(delta_squared) is not None
+    if is_constant and (delta is None or delta.denominator > 1 or not delta):
         return borel()
     where = f"`{shortest_form(beta_squared)} < {shortest_form(delta_squared)}`"
     return borel(where if delta is not None else f"`{root_written(delta_squared / n**2)}` is an integer and {where}")

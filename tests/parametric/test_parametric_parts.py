@@ -53,10 +53,11 @@ from kovacic.parametric.regions import (
     without_redundant,
 )
 from kovacic.parametric.restriction import hypersurface
-from kovacic.parametric.riemann import Schwarz, kimura_structure, verdict_by_exponents
+from kovacic.parametric.riemann import Schwarz, kimura_statements, kimura_structure, verdict_by_exponents
 from kovacic.parametric.search import search_special_values
-from kovacic.parametric.solutions import Progression, natural_value
+from kovacic.parametric.solutions import PolynomialSolution, Progression, jacobi, natural_value
 from kovacic.parametric.statements import ALWAYS, Setting, Statement, Vanishes, all_of
+from kovacic.reading.read import read_input
 
 F = Fraction
 
@@ -390,6 +391,107 @@ def test_groups_in_words() -> None:
     schwarz = Schwarz(cubic, (Structure.IMPRIMITIVE,))
     assert not schwarz.holds(ParameterPoint.generic(field))  # there are reducible equations among them
     assert schwarz.holds(ParameterPoint(("a",), (QQ.poly([2]),)))
+
+
+KIMURA = "(a^2-1)/(4*x^2) + (b^2-1)/(4*(x-1)^2) + (1-a^2-b^2+c^2)/(4*x*(x-1))"  # the exponent differences a, b, c
+
+
+@pytest.mark.parametrize(
+    ("S", "where", "otherwise"),
+    [
+        ("a/x^2", "sqrt(4*a + 1) is", "G_m"),  # two points: no difference is 1 at a third one
+        ("(a^2-1)/(4*x^2*(x-1)^2)", "a is", "G_m"),
+        ("-2/(9*x^2) + b/(x-1)^2 + 2/(9*x*(x-1))", "sqrt(4*b + 1) is", "G_m, or the Borel group"),
+        ("-2/(9*x^2) + b/(x-1)^2 - 2/(9*x*(x-1))", "sqrt(36*b - 7)/3, sqrt(4*b + 1) are", "G_m, or the Borel group"),
+        (KIMURA, "a, b, c are", "G_m, or the Borel group"),
+        ("(a*x+1)/(x^3-2)^2", "the exponent differences are", "G_m, or the Borel group"),
+    ],
+)
+def test_groups_of_reducible_equations(S: str, where: str, otherwise: str) -> None:
+    verdict = verdict_by_exponents(analyse(read_input(S, var="x").S, Budget()), Structure.REDUCIBLE)
+    cyclic = "finite cyclic, or G_a extended by a finite cyclic group"
+    assert verdict.group == f"{cyclic}, where {where} rational; else {otherwise}"
+    if "Borel" in otherwise:
+        assert str(verdict.abelian).endswith(" rational; elsewhere exactly where the group is `G_m`")
+    else:
+        assert verdict.abelian == "abelian"
+
+
+@pytest.mark.parametrize(
+    ("S", "group"),
+    [
+        ("a/(x^3-b*x-1)", "finite cyclic, or G_a extended by a finite cyclic group"),
+        ("a*b^2 - a", "G_m, or trivial where b = 1 or b = -1 or a = 0"),
+        ("x^4 + a*x", "the Borel group"),
+        ("1/x^2 + a/x", "the Borel group, or G_m where two solutions have rational logarithmic derivatives"),
+    ],
+)
+def test_other_groups_of_reducible_equations(S: str, group: str) -> None:
+    assert verdict_by_exponents(analyse(read_input(S, var="x").S, Budget()), Structure.REDUCIBLE).group == group
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "rest", "group"),
+    [
+        ("3/16", "3/16", "b", "dicyclic where sqrt(8*b - 1)/sqrt(2) is rational, else the infinite dihedral group"),
+        ("3/16", "3/16", "3/16", "dicyclic"),  # the third difference is 1/2
+        ("3/16", "3/16", "-7/72", "the infinite dihedral group"),  # its square is -8/9
+        (
+            "-a",
+            "3/16",
+            "b",
+            "dicyclic where the third exponent difference is rational, else the infinite dihedral group",
+        ),
+        ("5/36", "3/16", "b", "dicyclic"),
+        ("1/16", "3/16", "b", "the infinite dihedral group"),  # beside sqrt(3)/2
+    ],
+)
+def test_groups_of_imprimitive_equations(first: str, second: str, rest: str, group: str) -> None:
+    S = f"0*a - ({first})/x^2 - ({second})/(x-1)^2 + ({rest})/(x*(x-1))"
+    assert verdict_by_exponents(analyse(read_input(S, var="x").S, Budget()), Structure.IMPRIMITIVE).group == group
+
+
+@pytest.mark.parametrize(
+    ("S", "region", "group"),
+    [
+        ("x^2 + 1/x^2 + a", "a +- sqrt(5) is an integer = 2 mod 4", "the Borel group"),  # sqrt(5)/2 is no integer
+        ("x^2 - 1/(4*x^2) + a", "a = 2 mod 4", "the Borel group"),
+        ("x^2 + 3/(4*x^2) + a", "a = 0 mod 4", "the Borel group, or G_m where a^2 < 4"),
+        ("x^2 + a/x^2", "a = (n^2 - 1)/4 for an integer n = 2 mod 4", "G_m"),
+        ("x + a/x^2", "a = (n^2 - 4)/16 for an integer n = 3 mod 6", "the infinite dihedral group"),
+    ],
+)
+def test_groups_with_an_irregular_point(S: str, region: str, group: str) -> None:
+    (found,) = kovacic.conditions(S, var="x").regions
+    assert str(found).startswith(region + ": case")
+    assert found.group == group
+
+
+def test_two_constant_differences_may_fill_a_row() -> None:
+    """1/3, 2/3 and 1/3 are in a row of the tetrahedral group; beside 1/3 and 2/3 no third one makes it octahedral."""
+    S = read_input("-2/(9*x^2) - 5/(36*(x-1)^2) + b/(x*(x-1))", var="x").S
+    found = [structure for structure, _ in kimura_statements(analyse(S, Budget()))]
+    assert found == [Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.ICOSAHEDRAL]
+    assert kimura_structure((F(1, 3), F(2, 3), F(1, 3))) is Structure.TETRAHEDRAL
+
+
+def test_jacobi_polynomials_that_vanish() -> None:
+    """P_d^(a, b) with negative integers a, b vanishes for d from max(-a, -b) to -a - b - 1."""
+    n, b, z = sympy.symbols("n b z")
+
+    def excluded(*parameters: Any) -> str:
+        found = PolynomialSolution(jacobi(n, *parameters, z), n, jacobi=tuple(map(sympy.sympify, parameters)))
+        return prose.text_of_words(found.exclusion("d"))
+
+    assert excluded(-1, -1) == ", unless n = 1"
+    assert excluded(-2, -3) == ", unless 3 <= n <= 4"
+    assert [d for d in range(2, 6) if jacobi(sympy.Integer(d), -2, -3, z).expand() == 0] == [3, 4]
+    assert excluded(-2, 3) == ""
+    assert excluded(b, b) == ", unless b is an integer with -n <= b < -n/2"
+    assert excluded(b, 2 * b) == ", unless b and 2*b are integers from -n to -1 with a sum below -n"
+    assert jacobi(n, 2, b, z).diff(z) == (n + b + 3) / 2 * jacobi(n - 1, 3, b + 1, z)
+    assert jacobi(n, 2, b, z).diff(b) == sympy.Derivative(jacobi(n, 2, b, z), b)
+    assert (jacobi(3, 2, b, z).diff(z) - (b + 6) / 2 * jacobi(2, 3, b + 1, z)).expand() == 0
 
 
 def test_partial_fractions_without_zero_digits() -> None:

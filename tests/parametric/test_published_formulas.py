@@ -298,8 +298,8 @@ def test_a_denominator_that_is_a_square_because_of_a_constant(S: str) -> None:
             marks=pytest.mark.long,
         ),
         (
-            "(x^2+x+1)*y'' - n*(n+1)*y = 0",
-            "y = (x^2 + x + 1)*jacobi(n - 1, 1, 1, sqrt(3)*I*(-2*x - 1)/3) where n - 1 is a natural number",
+            "(x^2+3*x+1)*y'' - n*(n+1)*y = 0",
+            "y = (x^2 + 3*x + 1)*jacobi(n - 1, 1, 1, -sqrt(5)*(-2*x - 3)/5) where n - 1 is a natural number",
         ),
     ],
 )
