@@ -138,6 +138,12 @@ class Atoms:
             c, shown = -c, -shown
         return 1 / self.sqrt(c.inverse()), radical(shown)
 
+    def sqrt_beside(self, value: Poly, g: Poly) -> Expr:
+        """A square root of a constant: a multiple of the s of `root_of`."""
+        c = self.cleared(g)[0]
+        c = -c if self.is_negative(c) else c
+        return self.sqrt(value / c) / self.sqrt(c.inverse())
+
     def is_negative(self, value: Poly) -> bool:
         """True if a constant is negative; with parameters of unknown signs, if its first coefficient is, as that of -w^2."""
         known = self.own(self.constant(value)).is_negative

@@ -37,6 +37,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 
 import sympy
 from sympy import Add, Ei, Integer, Mul, Rational, asin, atan, exp, log
@@ -175,7 +176,7 @@ def _curve_terms(integral: CurveIntegral, atoms: Atoms, *, alone: bool, exponent
         terms.others.append(sympy.Integral(atoms.ratio(integral.without_exact) / root, atoms.x))
         terms.notes = (f"integral left because {integral.reason}",)
     for u in units:
-        _append_unit(u, root, atoms, terms, integral.g)
+        _append_unit(u, root, atoms, terms, integral.g, exponents=exponents)
     return terms
 
 
@@ -217,16 +218,18 @@ def _inverse_sine(g: Poly, atoms: Atoms, *, exponents: bool) -> Expr | None:
     return sympy.asinh(z)
 
 
-def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly) -> None:
+def _append_unit(u: Unit, root: Expr, atoms: Atoms, terms: _Terms, g: Poly, *, exponents: bool) -> None:
     """factor * log((A + B tau s)/sqrt(norm))/tau, or the arc tangent for tau^2 < 0."""
+    has_norm = exponents or u.p is None  # which is a power of kappa/tau
+    root_of = atoms.sqrt if has_norm else partial(atoms.sqrt_beside, g=g)
     factor = Rational(u.factor)
     content, top = atoms.primitive(u.A)
     if atoms.is_negative(u.tau_squared):
-        eta = atoms.sqrt(-u.tau_squared)
+        eta = root_of(-u.tau_squared)
         b, bottom = atoms.primitive(u.B)
         terms.others.append(atan(Mul(atoms.constant(content / b) / eta, top, 1 / bottom, 1 / root)) * -factor / eta)
         return
-    tau = atoms.sqrt(u.tau_squared)
+    tau = root_of(u.tau_squared)
     argument = top + sympy.expand_mul(tau * atoms.poly(u.B / content)) * root
     if u.p is None:
         norm = u.norm(g)
