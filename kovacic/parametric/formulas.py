@@ -278,7 +278,7 @@ class _Powers:
         with_roots = [key for key in self.exponents if has_roots(key) and sympy.degree(key, self.x) == 1]
         for first, second in combinations(with_roots, 2):
             whole = sympy.expand(first * second)
-            if has_roots(whole) or not {first, second} <= self.exponents.keys():
+            if has_roots(whole):
                 continue
             known = self.exponents.pop(self.key(whole), sympy.Integer(0))
             parts = [self.exponents[key] + known for key in (first, second)]

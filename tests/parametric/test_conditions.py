@@ -672,7 +672,9 @@ def test_rows_that_contain_no_constant_exponent_are_left_out() -> None:
     assert with_fifths.check(40)
 
 
-@pytest.mark.parametrize("value", ["x", "3+x", sympy.Symbol("x"), sympy.Symbol("x") + 3, "n", "x1", None])
+@pytest.mark.parametrize(
+    "value", ["x", "3+x", sympy.Symbol("x"), sympy.Symbol("x") + 3, "n", "x1", None, sympy.pi, sympy.oo]
+)
 def test_values_that_are_no_numbers_are_refused(value: Any, answers: dict[str, Conditions]) -> None:
     for method in (answers["bessel"].case_at, answers["bessel"].solve_at):
         with pytest.raises(kovacic.InputError):

@@ -40,8 +40,8 @@ from kovacic.parametric.claims import (
     over_parameters,
 )
 from kovacic.parametric.exponents import without_constant_pivots, zeros_of_forms
-from kovacic.parametric.formulas import partial_fractions, root_written, shortest_form
-from kovacic.parametric.integers import Congruence, natural_root, squares_of_roots
+from kovacic.parametric.formulas import partial_fractions, root_written, shortest_form, with_gathered_powers
+from kovacic.parametric.integers import Congruence, at_integers, natural_root, squares_of_roots
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import (
     NOT_ABELIAN,
@@ -302,6 +302,9 @@ def test_words_of_parts() -> None:
     assert str(unknown) == "not determined"
     region = ParameterRegion(ALWAYS, unknown)
     assert region.why_no_solution == "nothing is solved where the answer is: not determined"
+    assert not region.plain
+    assert replace(region, verdict=RegionVerdict(None)).plain
+    assert not replace(region, verdict=RegionVerdict(None), shown_degree=2).plain
     assert Known(("half-integer",)).sympy_properties() == ["rational", "noninteger"]
     assert words_of(sympy.Symbol("n", integer=False)) == ["noninteger"]
     assert Known((">0", "<1000")).may_be_among(INTEGERS)
@@ -473,6 +476,57 @@ def test_two_constant_differences_may_fill_a_row() -> None:
     found = [structure for structure, _ in kimura_statements(analyse(S, Budget()))]
     assert found == [Structure.REDUCIBLE, Structure.IMPRIMITIVE, Structure.TETRAHEDRAL, Structure.ICOSAHEDRAL]
     assert kimura_structure((F(1, 3), F(2, 3), F(1, 3))) is Structure.TETRAHEDRAL
+
+
+@pytest.mark.parametrize(
+    ("S", "condition"),
+    [
+        # x^2 S = 3/4 + a t + s t^2 + ... with t = x - 2; the difference is 2, and a^2 = s.
+        ("3/(4*(x-2)^2) + a/(x-2) - 3/(16*(x-3)^2) + b/(x-3)", "16*a**2 + 16*b + 3"),
+        # 2 + a t + s t^2 + r t^3 + ...: the difference is 3, and a^3/4 - a s + r = 0 with s = -3/16 - b, r = -3/8 - b.
+        ("2/(x-2)^2 + a/(x-2) - 3/(16*(x-3)^2) + b/(x-3)", "4*a**3 + 16*a*b + 3*a - 16*b - 6"),
+    ],
+)
+def test_where_there_is_no_logarithm(S: str, condition: str) -> None:
+    findings = search_special_values(analyse(read_input(S, var="x").S, Budget()))
+    assert (*map(str, findings.candidates),) == (condition,)
+    assert not findings.conditions
+
+
+def test_integers_at_which_a_fraction_has_a_small_denominator() -> None:
+    field = FunctionField(("t",))
+    t = field.generator("t")
+    found = at_integers((5 * t + 2) / (3 * t - 4), 2, read_assumptions({"t": "integer"}, t, ("t",)))
+    values = {n: F(5 * n + 2, 3 * n - 4) for n in range(-200, 200)}
+    assert found == [(Vanishes(t - n), value) for n, value in values.items() if value.denominator <= 2]
+    assert (values[-16], values[10]) == (F(3, 2), 2)
+
+
+def test_classes_of_a_symmetric_equation_are_symmetric() -> None:
+    """N -> -1 - N maps the integers 2 mod 3 to those 0 mod 3."""
+    field = FunctionField(("t",))
+    t, N = field.generator("t"), field.poly([F(-1, 2), 1])
+    for k in (2, 3, 4):
+        made = Congruence.make(over_parameters(N**k - t * N ** (k - 2)), Classes.of([0], 3))
+        assert isinstance(made, Congruence)
+        assert made.numbers == Classes.of([0, 2], 3), k
+    made = Congruence.make(over_parameters(N**3 - t), Classes.of([0], 3))
+    assert isinstance(made, Congruence)
+    assert made.numbers == Classes.of([2], 3)
+
+
+def test_powers_are_gathered() -> None:
+    """(x - i)^e (x + i)^f takes up powers of x^2 + 1; other factors with roots stay apart."""
+    x, a, b = sympy.symbols("x a b")
+    i = sympy.I
+    for factors, gathered in (
+        ([(x - i) ** a, (x + i) ** a, (x**2 + 1) ** 2], (x**2 + 1) ** (a + 2)),
+        ([(x - i) ** a, (x + i) ** b, (x**2 + 1) ** 2], (x - i) ** (a + 2) * (x + i) ** (b + 2)),
+        ([(x - i) ** a, (x - 2 * i) ** a, x**b], (x - i) ** a * (x - 2 * i) ** a * x**b),
+        ([(x**2 + 3) ** a, x**2 + 3, sympy.exp(a * x), sympy.exp(x)], (x**2 + 3) ** (a + 1) * sympy.exp(a * x + x)),
+        ([(x**2 + 3) ** a, x**2 + 5, b + 2], (x**2 + 3) ** a * (x**2 + 5)),
+    ):
+        assert with_gathered_powers(sympy.Mul(*factors), x) == gathered
 
 
 def test_jacobi_polynomials_that_vanish() -> None:
