@@ -171,10 +171,11 @@ class ExplanationWriter(Steps):
         if equation is not None and not equation.is_normal_form:
             y = equation.unknown
             v, blocks = self.normal_form(y)
+            given = "equation as given" if equation.is_homogeneous else "homogeneous equation"
             yield from blocks
             yield say(
                 f"Cases, omega and the group below are those of the normal form, with y for {v}; the "
-                f"solutions {y}1 and {y}2 are those of the equation as given."
+                f"solutions {y}1 and {y}2 are those of the {given}."
             )
         yield from (say(f"Note: {notice}.") for notice in answer.notices)
         if answer.change is not None:
@@ -190,8 +191,10 @@ class ExplanationWriter(Steps):
         meaning = "" if a == "a" else f", {a} and {b} the coefficients of {y}'' and {y}'"
         substitution = Math(f"{y} = {v} exp(int gamma d{x})", rf"{y} = {v} \exp \int \gamma \, d{latex_text(x)}")
         gamma = Math(f"gamma = -{b}/(2{a})", rf"\gamma = -\frac{{{b}}}{{2{a}}}")
+        is_homogeneous = answer.equation is None or answer.equation.is_homogeneous
+        given = "it" if is_homogeneous else "the homogeneous equation"
         blocks: list[Block] = [
-            say("With ", substitution, ", ", gamma, f"{meaning}, it becomes its normal form for {v}:"),
+            say("With ", substitution, ", ", gamma, f"{meaning}, {given} becomes its normal form for {v}:"),
             Formula(self.formulas.named("gamma", answer.gauge)),
             Formula(normal_form_of(answer, v)),
         ]

@@ -137,11 +137,13 @@ class _TheoremWriter:
             given_variable = Math.of(equation.change.variable)
             start = ["in ", self._changed_variable(), " (", given_variable, " is the variable that was given) "]
         if v == equation.unknown:
-            yield say(*start, "has the normal form")
+            without = "" if equation.is_homogeneous else ", without its right-hand side,"
+            yield say(*start, f"has{without} the normal form")
         else:
-            yield say(*start, "becomes, with ", self._substitution(v), ", its normal form")
+            without = "" if equation.is_homogeneous else " and without its right-hand side"
+            yield say(*start, "becomes, with ", self._substitution(v), f"{without}, its normal form")
         yield Formula(normal_form)
-        yield say(f"Each of these equations {claim}")
+        yield say(f"{'Each of these equations' if equation.is_homogeneous else 'The normal form'} {claim}")
 
     def _given(self) -> Math | None:
         """The equation as the user wrote it, if its text can be read again; None also for a letter in place of a constant."""
@@ -163,7 +165,7 @@ class _TheoremWriter:
     def _unknown(self) -> str:
         """The unknown of the normal form: y if that is the equation itself."""
         equation = self.answer.equation
-        if equation is None or equation.is_normal_form:
+        if equation is None or not equation.gauge:
             return "y"
         return free_name({equation.unknown, *self.answer.parameters}, "v", "u", "z")
 

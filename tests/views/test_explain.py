@@ -12,12 +12,21 @@ from typing import Any
 import published
 import pytest
 import sympy
+import transform
 from build import parametrize, run, size
 from clocks import controlled
 from sympy import Rational
 
 import kovacic
+from kovacic import derived
 from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.rationals import QQ
+from kovacic.decision import RiccatiPolynomial
+from kovacic.galois.group import Ground, Group, GroupKind
+from kovacic.views.explain import ExplanationWriter
+from kovacic.views.sentences import formulas_of, omega_math
+from kovacic.views.text import render
+from kovacic.writing.document import format_of
 
 EQUATIONS = [
     "x^2*y'' + x*y' + (x^2 - 1/4)*y = 0",
@@ -532,3 +541,73 @@ def test_the_command_explains_problems(capsys: pytest.CaptureFixture[str]) -> No
     assert printed.rstrip().endswith("y(x) = x - sin(x)")
     assert run(["explain", "y'' + y = 0"]) == 0
     assert "Kovacic's algorithm" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("S", "lines"),
+    [
+        ("-1", ["omega = i or -i", "y = exp(integral of omega dx)"]),
+        ("-2/3", ["omega = c/3", "where c is i*sqrt(6) or -i*sqrt(6)"]),
+        ("3/x^2", ["omega = (c + 1)/(2*x)", "where c is sqrt(13) or -sqrt(13)"]),
+        ("sqrt(2)/x^2", ["omega = (c + 1)/(2*x)", "where c is any root of c^2 - 4*sqrt(2) - 1"]),
+        (
+            "-27*x/(8*(x^3-2)^2)",
+            [
+                "omega is a root w of",
+                "    w^2",
+                "    - ((2*x^2 + c^2*x - c)/(x^3 - 2)) w",
+                "    + ((8*x^4 + 8*c^2*x^3 - 6*c*x^2 - x - 4*c^2)/(8*x^6 - 32*x^3 + 32)) = 0",
+                "where c is any root of (2*c^3 + 1)/2",
+            ],
+        ),
+        (
+            "-3/(16*x^2) + 1/x",
+            ["omega is a root w of", "    w^2", "    - (1/(2*x)) w", "    - ((16*x - 1)/(16*x^2)) = 0"],
+        ),
+        ("-3/(16*x^2) - 1/x", ["    - (1/(2*x)) w", "    + ((16*x + 1)/(16*x^2)) = 0"]),
+        ("x^2*y'' + x*y' + (x^2 - 1/4)*y = 0", ["y = exp(integral of omega dx), a solution of the normal form"]),
+    ],
+)
+def test_lines_of_omega_and_its_constants(S: str, lines: list[str]) -> None:
+    text = "\n".join(render(kovacic.solve(S)))
+    assert "\n".join(f"  {line}" for line in lines) + "\n" in text
+
+
+def test_terms_of_omega_that_are_zero_are_left_out() -> None:
+    numerators = [QQ.poly(coefficients) for coefficients in ([1], [], [1, -1], [2, -1])]
+    polynomial = RiccatiPolynomial(P=numerators[0], D=numerators[0], numerators=tuple(numerators))
+    assert omega_math(polynomial, formulas_of(kovacic.solve("x"))).text == "w^3\n- (x - 1) w\n+ (x - 2) = 0"
+
+
+def test_the_literature_on_a_group_is_cited_once_it_was_computed() -> None:
+    def keys(answer: kovacic.Solution) -> list[str]:
+        return re.findall(r"^\[(\w+)\]", answer.citation(), re.MULTILINE)
+
+    algebraic = kovacic.solve(EQUATIONS[4])
+    before = keys(algebraic)
+    assert algebraic.closed_form is not None
+    assert keys(algebraic) == [*before, "HW05"]
+    infinite = kovacic.solve(transform.from_squared_product(RatFunc(QQ.poly([1, 1, 0, 0, 1]), QQ.poly([4, 4, 1])), 1))
+    before = keys(infinite)
+    assert infinite.group.name == "N(T)"
+    assert keys(infinite) == [*before, "Dav81", "Can87"]
+    assert [key for key in before if key in ("HW05", "Dav81", "Can87")] == []
+
+
+def test_a_group_whose_order_is_not_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    writer = ExplanationWriter(kovacic.solve("-3/(16*x^2) + 1/x"))
+    group = Group(GroupKind.IMPRIMITIVE, Ground.UNDETERMINED, 6)
+    monkeypatch.setattr(derived, "group", lambda answer: group)
+    assert f"{group.description}, of order at least 24 if it is finite: " in format_of("text").render([*writer.group()])
+
+
+def test_equations_with_a_right_hand_side_are_explained_by_their_homogeneous_ones() -> None:
+    """1/x and x^2 don't solve x^2*y'' - 2*y = 3."""
+    text = kovacic.solve("x^2*y'' = 2*y + 3").explain()
+    assert (
+        "With y = v exp(int gamma dx), gamma = -b/(2a), the homogeneous equation becomes its normal form for v:" in text
+    )
+    assert "the solutions y1 and y2 are those of the homogeneous equation.\n" in text
+    text = kovacic.solve("x^2*y'' + x*y' = 2*y").explain(solutions=False)
+    assert "With y = v exp(int gamma dx), gamma = -b/(2a), it becomes its normal form for v:" in text
+    assert "the solutions y1 and y2 are those of the equation as given.\n" in text

@@ -10,7 +10,9 @@ import sys
 import tomllib
 import warnings
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sympy
@@ -19,6 +21,7 @@ from clocks import controlled
 from flint import arb
 
 import kovacic
+from kovacic.enclosure.request import Start
 
 
 def test_values_of_a_solution_by_its_own_method() -> None:
@@ -176,3 +179,47 @@ def test_warnings_name_the_line_of_the_user() -> None:
         kovacic.prepared("x", x0=0, y0=1, dy0=0)(wide)
     assert len(found) >= 4
     assert {warning.filename for warning in found} == {__file__}
+
+
+@pytest.mark.parametrize(
+    ("start", "name"),
+    [
+        ({"x0": Fraction(1, 3), "which": "regular"}, r"$u$ regular at $x = \frac{1}{3}$"),
+        (
+            {"x0": Fraction(2, 3), "frobenius": (2, Fraction(-3, 5))},
+            r"$u$ = (2) $u_1$ + (-3/5) $u_2$ of the Frobenius basis at $x = \frac{2}{3}$",
+        ),
+        ({"x0": 2, "y0": 3, "dy0": 5}, r"$u$, where $u(2) = 3,\ u'(2) = 5$"),
+        ({"x0": 2, "which": "decaying"}, "$u$ decaying, $u(2) = 1$"),
+        ({"x0": 2, "y0": 7, "which": "decaying"}, "$u$ decaying, $u(2) = 7$"),
+        ({"x0": 2, "y0": 10**20, "dy0": 10**11}, f"$u$, where $u(2) = {10**20},\\ u'(2) = {10**11}$"),
+        ({"x0": 2, "y0": 10**20, "dy0": 10**12}, "$u$"),
+    ],
+)
+def test_a_solution_is_named_by_its_values(start: dict[str, Any], name: str) -> None:
+    """And by its unknown alone where these are longer than 50 characters."""
+    from kovacic.views.plot import _name_by_values
+
+    assert _name_by_values("u", Start(**start)) == name
+
+
+def test_titles_of_pictures() -> None:
+    from kovacic.views.plot import _title
+
+    answer = kovacic.solve("y'' = a*y/x")
+    half = _title(answer, answer, {"a": Fraction(3, 2)})
+    assert half == r"$y'' + \left(-\dfrac{a}{x}\right) y = 0$,   $a = \frac{3}{2}$"
+    assert _title(([1], [0, 1]), ([1], [0, 1]), None) == ""
+    text = f"y'' = {'+'.join(['x'] * 47)}"
+    assert len(text) == 99
+    assert _title(f"{text}7", f"{text}7", None).startswith("$y''")
+    assert _title(f"{text}77", f"{text}77", None) == ""
+
+
+def test_maps_of_too_many_points_are_refused() -> None:
+    """Steps of a map are one fewer than its points."""
+    whittaker = kovacic.conditions("a + b/x^2")
+    with pytest.raises(kovacic.InputError, match="a map of 3001 x 3001 points"):
+        whittaker.plot(steps=3000)
+    with pytest.raises(kovacic.InputError, match="a map of 5000001 x 1 points"):
+        whittaker.plot(parameters=["b"], steps=5_000_000, fixed={"a": 2})

@@ -555,6 +555,30 @@ def test_cases_are_said_to_be_those_of_the_normal_form(format: str) -> None:
     assert "Cases and groups are those of the normal form.\n" in written
 
 
+@pytest.mark.parametrize(
+    ("given", "reduction", "claim"),
+    [
+        ("x*u'' = a*u", "becomes, with u = y, its normal form\n\n    y'' = (a/x) y", "Each of these equations"),
+        (
+            "x*y'' = a*y + 3",
+            "has, without its right-hand side, the normal form\n\n    y'' = (a/x) y",
+            "The normal form",
+        ),
+        (
+            "x*y'' + y' = a*y + 5*x",
+            "becomes, with y = v exp(int (-1/(2*x)) dx) and without its right-hand side, its normal form\n\n"
+            "    v'' = (a/x - 1/(4*x^2)) v",
+            "The normal form",
+        ),
+    ],
+)
+def test_the_claim_is_about_homogeneous_equations(given: str, reduction: str, claim: str) -> None:
+    """y = x solves y'' = x y - x^2, whose homogeneous equation has no Liouvillian solution."""
+    theorem = kovacic.conditions(given, var="x").theorem()
+    printed = f"The equation\n\n    {given}\n\n{reduction}\n\n{claim} has Liouvillian solutions if and only if"
+    assert printed in theorem
+
+
 def in_text(answer: Conditions) -> str:
     return "".join(format_of("text").render([*blocks(answer)]))
 
