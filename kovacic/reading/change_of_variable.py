@@ -68,9 +68,7 @@ def is_in_power(equation: Equation) -> bool:
 
 
 def slope_squared(equation: Equation) -> Any:
-    """(dt/dx)^2, a SymPy expression in t."""
-    if equation.change is None:
-        return sympy.Integer(1)
+    """(dt/dx)^2, a SymPy expression in t, of an equation with a change of variable."""
     t = function_of_x(equation)
     rate = t.args[0].diff(user_variable(equation))
     return SQUARES[t.func](sympy.Symbol(equation.variable)) * rate**2

@@ -151,8 +151,6 @@ class EquationReader(RationalReader):
         name = text.rstrip(PRIME)
         if name != self.unknown:
             hint = f"there is one unknown function, here {self.unknown}; write products with *: x*y''"
-            if name == self.variable + self.unknown:
-                hint = f"write {self.variable}*{text[len(self.variable) :]}"
             raise NotLinear(f"{text} is a derivative of something else than {self.unknown}", hint=hint)
         return _derivative_of_unknown(len(text) - len(name))
 

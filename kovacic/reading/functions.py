@@ -90,10 +90,7 @@ def multiplied_out(given: Any, source: Source) -> Expr | None:
             return None
     else:
         expression = given.lhs - given.rhs if isinstance(given, sympy.Equality) else given
-        named = [f for f in functions_in(expression) if f.func.__name__ == source.unknown and f.args[0].is_Symbol]
-        if not named:
-            return None
-        y = named[0]
+        y = next(f for f in functions_in(expression) if f.func.__name__ == source.unknown and f.args[0].is_Symbol)
     unknown = sympy.symbols("y2 y1 y0", cls=sympy.Dummy)
     derivatives = [y.diff(y.args[0], 2), y.diff(), y]
     plain = expression.xreplace(dict(zip(derivatives, unknown, strict=True)))

@@ -351,9 +351,9 @@ class Paste:
         return False
 
     def values_of_sage(self, inside: Sequence[Tokens]) -> bool:
-        """Sage's ics=[x0, y0, dy0]."""
+        """Sage's ics=[x0, y0, dy0], and [x0, y0] for an equation of order 1."""
         function = self.function
-        if function is None or len(inside) != 3 or not all(inside):
+        if function is None or len(inside) not in (2, 3) or not all(inside):
             return False
         point, *values = inside
         opening, closing, equals = (Token("SIGN", sign, point[0].start, point[0].end) for sign in "()=")
@@ -369,7 +369,7 @@ _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|
 #: MATLAB's Dy = diff(y, t).
 _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
 #: A name, or a derivative, with an argument.
-_CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) [(\[]")
+_CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) (?:\{ )?[(\[]")
 #: Primes that belong to no value: y'', y''(x).
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
@@ -425,7 +425,7 @@ def _is_quoted(scan: Tokens) -> bool:
 
 def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
     """True if a function stands at a point; a letter is a point behind the equation, and the variable in it."""
-    if not _has_equals(scan) or _PRIMES_ALONE.search(scan.spaced):
+    if _PRIMES_ALONE.search(scan.spaced):
         return False
     partner = scan.partners
     for call in _CALL.finditer(scan.spaced):

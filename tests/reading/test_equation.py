@@ -124,6 +124,24 @@ def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
         ("y'' = y = 0", ParseError, "doesn't belong here", 8),
         ("y'' + = 0", ParseError, "missing", 4),
         ("y'' + y/0 = 0", NotRational, "zero", 8),
+        ("y'' = (0*sin(x))^-2", NotRational, "0 has no powers", 6),
+        ("y'' = abcd*y", ParseError, "abcd is a word that isn't known here", 6),
+        ("y''(theta) = y*dtheta", ParseError, "write y' or dy/dtheta for a derivative", 15),
+        ("y'' + r^2*y + tau^2*y' + tau*y = 0", InputError, "r, tau: which is the variable?", 14),
+        ("y'' = ln^-1(x)*y", ParseError, "write 1/ln(x) for the reciprocal", 6),
+        (r"y'' = \sin^{n+1} x", NotRational, "without its parentheses", 6),
+        ("y'' = e^-2.5t y", ParseError, "write e^(-2.5*t) or e^(-2.5)*t", 6),
+        ("y'' = (x, 3)*y", ParseError, "values, y(0) = 1, are for dsolve", 8),
+        (".y'' = x*y", ParseError, "unexpected character '.'", 0),
+        ("y.diff + x*y = 0", ParseError, "unexpected character '.'", 1),
+        ("y'' = x.(y)", ParseError, "unexpected character '.'", 7),
+        ("dsolve()", ParseError, "there is no expression", 0),
+        ("dsolve(y'' = y) = 0", ParseError, "'=' doesn't belong here", 11),
+        ("dsolve(y'' = y, numeric)", ParseError, "numeric isn't read in dsolve", 16),
+        ("dsolve(y'' = y, z(t))", ParseError, "z(t) isn't read in dsolve", 16),
+        ("desolve(y'' = y, ics=[0, 3, 2])", ParseError, "isn't read in desolve", 17),
+        ("desolve(y'' = y, y, ics=[0, 3, , 2])", ParseError, "isn't read in desolve", 20),
+        ("desolve(y'' = y, y, ics=[0, 3, 2, 5])", ParseError, "isn't read in desolve", 20),
     ],
 )
 def test_refusals_have_a_place(text: str, kind: type, message: str, position: int) -> None:
@@ -192,6 +210,8 @@ def test_a_symbol_with_assumptions() -> None:
         y(x).diff(x, 2) + sympy.Function("z")(x).diff(x),
         y(x).diff(x) - y(x),
         y(x).diff(x, 2) + y(2 * x),
+        y(x).diff(x, 2) + sympy.Derivative(y(x), sympy.Symbol("t")),
+        sympy.Eq(y(2 * x), 3),
     ],
     ids=str,
 )
@@ -203,6 +223,20 @@ def test_sympy_equations_that_are_not_linear(expression: sympy.Expr) -> None:
 def test_a_coefficient_of_sympy_that_is_not_rational() -> None:
     with pytest.raises(NotRational, match="coefficient"):
         kovacic.solve(sympy.log(x) * y(x).diff(x, 2) + y(x))
+
+
+@pytest.mark.parametrize("a", [sympy.true, sympy.Eq(x, 3), sympy.Matrix([x])], ids=str)
+def test_a_coefficient_is_a_function(a: Any) -> None:
+    with pytest.raises(InputError, match="is a function of the variable, not "):
+        kovacic.solve(a=a, b=x, c=3)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("2a", "can't be the name"), ("pi", "is a number"), (3, "can't be the name")]
+)
+def test_what_cannot_be_declared(name: Any, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        kovacic.solve("a*x", parameters=["a", name])
 
 
 def test_an_equation_or_coefficients_but_not_both() -> None:
@@ -302,22 +336,36 @@ CONSTANTS = [
     ("exp(-b) + exp(2*b) + cosh(b)", 1),
     ("a**(1/S(3)) + sqrt(a) + a", 1),
     ("2**p + 8**p", 1),
+    ("log(12) + log(2)", 2),
+    ("sin(1) + tan(1)", 2),
+    ("cos(2*a) + 3*cos(a)", 1),
+    ("tanh(a) + exp(a)", 1),
+    ("pi**(1/S(3)) + 3*pi", 2),
 ]
 
 
-@parametrize(("constant", "number"), CONSTANTS, ordinary=3)
+def with_constant(constant: str) -> Any:
+    x, y = sympy.Symbol("x"), sympy.Function("y")
+    return y(x).diff(x, 2) - (x + sympy.sympify(constant)) * y(x)
+
+
+@pytest.mark.parametrize(("constant", "number"), CONSTANTS)
 def test_constants_are_letters(constant: str, number: int) -> None:
     """The letters stand for what was given, and there are no more than needed."""
-    x, y = sympy.Symbol("x"), sympy.Function("y")
+    x = sympy.Symbol("x")
     given = sympy.sympify(constant)
-    parsed = read_input(y(x).diff(x, 2) - (x + given) * y(x), exponentials=True)
+    parsed = read_input(with_constant(constant), exponentials=True)
     letters = {sympy.Symbol(name): meaning for name, meaning in parsed.letters}
     S = sympy.sympify(parsed.S)
     assert len(S.free_symbols - {x}) == number - ("pi" in constant)  # pi is a number there
     values = {symbol: sympy.Rational(k + 3, 7) for k, symbol in enumerate(sorted(given.free_symbols | {x}, key=str))}
     difference = S.xreplace(letters).xreplace({sympy.Symbol("pi"): sympy.pi}) - x - given
     assert abs(difference.subs(values).evalf(30, maxn=200)) < 1e-25
-    answer = kovacic.solve(y(x).diff(x, 2) - (x + given) * y(x))
+
+
+@parametrize("constant", [row[0] for row in CONSTANTS], ordinary=3)
+def test_answers_have_letters_for_constants(constant: str) -> None:
+    answer = kovacic.solve(with_constant(constant))
     assert answer.case is None
     assert kovacic.Solution.from_json(answer.to_json()) == answer
 

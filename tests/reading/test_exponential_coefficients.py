@@ -581,7 +581,14 @@ def test_the_variable_is_the_same_for_letters_and_special_numbers(shape: str) ->
 
 @pytest.mark.parametrize(
     ("S", "variable"),
-    [("1/(2 + cos(x))", "exp(I*x)"), ("exp(x)", "exp(x)"), ("cosh(x)", "exp(x)"), ("2^x", "exp(log_2*x)")],
+    [
+        ("1/(2 + cos(x))", "exp(I*x)"),
+        ("exp(x)", "exp(x)"),
+        ("cosh(x)", "exp(x)"),
+        ("2^x", "exp(log_2*x)"),
+        ("1/(2 + sin(x))", "sin(x)"),
+        ("tan(x)", "tan(x)"),
+    ],
 )
 def test_the_variable_of_coefficients_that_are_not_invariant(S: str, variable: str) -> None:
     assert read_input(S, exponentials=True).equation.change.expression == variable

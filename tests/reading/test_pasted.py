@@ -189,6 +189,12 @@ def test_equations_in_a_notation_mean_what_they_mean_there(name: str) -> None:
         ("x^{2} + 1", "x", "x**2 + 1"),
         (r"\frac{1}{x} - \frac{3}{16x^2}", "x", "(16*x - 3)/(16*x**2)"),
         (r"\frac{d^{2}}{d x^{2}} y{\left(x \right)} + y{\left(x \right)} = 0", "x", "-1"),
+        (r"\frac{d^{2}}{d x^{2}} y{\left(x \right)} = (x + 3) y{\left(x \right)}", "x", "x + 3"),
+        ("y'' + tau*y' + tau²*y = 0", "tau", "(-3*x**2 + 2)/4"),
+        ("y'' = T*y + T^2*a*y", "T", "a*x**2 + x"),
+        ("y''^1 = x*y^1", "x", "x"),
+        ("(d^2y/dx^2)(x) + (dy/dx)(x) = 3 y", "x", "13/4"),
+        ("(x + root(0, 500))*2", "x", "2*x"),
         ("{y'' = x y}", "x", "x"),
     ],
 )
@@ -204,6 +210,7 @@ def test_what_is_pasted(text: str, variable: str, S: str) -> None:
         ("y'' + 2*c*y' + w0^2*y = 0", "x is the variable, c, w0 parameters"),
         ("x^1/2", "a root is written ^(1/2)"),
         ("(1+I)^(1/3)*x", "near 1.08422 + 0.290515*I"),
+        ("(1-I)^(1/3)*x", "near 1.08422 - 0.290515*I"),
     ],
 )
 def test_what_is_guessed_is_said(text: str, note: str) -> None:
@@ -283,10 +290,29 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
         ("desolve(diff(y,x,2)+y, y, ics=[0,1,2])", "2*sin(x) + cos(x)"),
         ("eq = Eq(y(x).diff(x,2)+y(x),0); ic = {y(0):1}; dsolve(eq, y(x), ics=ic)", "C2*sin(x) + cos(x)"),
         ("c1 = y(0)==1; c2 = Dy(0)==0; dsolve(diff(y,x,2)+y==0, [c1 c2])", "cos(x)"),
+        (r"y'' + y = 0, y{\left(0 \right)} = 3, y'{\left(0 \right)} = 2", "2*sin(x) + 3*cos(x)"),
+        ("desolve(diff(y,x)+4*y==0, y, ics=[2,3])", "3*exp(8 - 4*x)"),
+        ("[y'' + 4*y = 0, y(0) = 3]", "C2*sin(2*x) + 3*cos(2*x)"),
+        ("rhs(dsolve(y'' + 4*y = 0, y(0) = 3))", "C2*sin(2*x) + 3*cos(2*x)"),
+        ("dsolve(); y'' + y = 0, y(0) = 3", "C2*sin(x) + 3*cos(x)"),
     ],
 )
 def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
     assert str(kovacic.dsolve(text).rhs) == solution
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "position"),
+    [
+        ("y'' + 4*y = 0, y(0)", r"'y\(0\)' isn't an initial value", 15),
+        ("y'' = y, y(0) = 3 y''", "can't contain y", 9),
+        ("x = 3, y = 2*x", "contain no derivative", None),
+    ],
+)
+def test_what_is_no_value_is_refused(text: str, said: str, position: int | None) -> None:
+    with pytest.raises(kovacic.InputError, match=said) as caught:
+        kovacic.dsolve(text)
+    assert caught.value.position == position
 
 
 def test_values_in_two_places_are_refused() -> None:

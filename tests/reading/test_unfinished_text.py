@@ -35,6 +35,11 @@ def test_texts_that_break_off(text: str) -> None:
     assert all(is_read_or_refused(text[:k]) for k in range(len(text) + 1))
 
 
+@pytest.mark.parametrize("command", [r"\frac", r"\sqrt", "sin(", "diff("])
+def test_unfinished_text_may_be_deep(command: str) -> None:
+    assert is_read_or_refused("y'' = " + 900 * command + "x")
+
+
 @parametrize("first", TOKENS, ordinary=0, long=(0, 4, 8, 12, 14))
 def test_tokens_in_any_order(first: str) -> None:
     for others in product(TOKENS, repeat=2):
