@@ -66,7 +66,7 @@ class DegreeBound:
     total: Fraction
     choices: list[tuple[Place, Fraction]]
 
-    def exponents(self, place: Place) -> list[Fraction] | None:
+    def exponents(self, place: Place) -> list[Poly] | None:
         """The exponents of omega at a place that leave a natural number for the degree, whatever those elsewhere are.
 
         None unless the place is a single point with a choice between rational numbers.
@@ -78,7 +78,8 @@ class DegreeBound:
             return None
         others = [half for other, half in self.choices if other is not place]
         signed = (halves[0], -halves[0])
-        return [Fraction(place.weight, 2) + h for h in signed if largest_integer_total(self.total - h, others) >= 0]
+        possible = [half for half in signed if largest_integer_total(self.total - half, others) >= 0]
+        return [place.factor.field.poly([Fraction(place.weight, 2) + half]) for half in possible]
 
 
 def degree_bound(problem: Problem) -> DegreeBound | Evidence:
@@ -187,10 +188,10 @@ def modular_chart(h: Homomorphism, problem: Problem, place: Place) -> ModularCha
     return ModularChart(num, den, D, D.degree() + max(opposite, 1) - 2, equation, root, place.at_infinity)
 
 
-def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence[Fraction] | None = None) -> list[Any]:
+def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence[int] | None = None) -> list[Any]:
     """The polynomials Q such that y = exp(int Q/t^nu) u, u a unit, can be a solution with a rational omega.
 
-    The coefficient of t^(nu-1) in Q is the exponent; with `exponents` it must be one of these.
+    The coefficient of t^(nu-1) in Q is the exponent; with `exponents` modulo p it must be one of these.
 
     At a regular place Q is an exponent: (1 + Delta)/2 alone if there is a logarithm.  At an unramified irregular place
     Q = +-[sqrt S] + (nu +- b/a)/2 t^(nu-1) [Kovacic 1986, sec. 3.2].  Empty if a square root doesn't exist modulo p.
@@ -208,8 +209,7 @@ def exponential_parts(equation: LocalEquation, place: Place, exponents: Sequence
         parts = _irregular_parts(equation.p, nu, ratio)
     if exponents is None:
         return parts
-    allowed = [_modulo(exponent, equation.p) for exponent in exponents]
-    return [Q for Q in parts if int(Q[nu - 1]) in allowed]
+    return [Q for Q in parts if int(Q[nu - 1]) in exponents]
 
 
 def _modulo(number: Fraction, p: int) -> int:

@@ -11,9 +11,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import count
+from itertools import count, islice
 from typing import Any
 
 from kovacic.algebra.extension import adjoined_square_root
@@ -23,6 +24,7 @@ from kovacic.algebra.poly import Poly
 from kovacic.algebra.rationals import LARGE_DEGREE, QQ
 from kovacic.algebra.recurrence import polynomial_solution
 from kovacic.decision import Evidence, Exclusion, NoInvariant, NoRationalOmega, NoTerminatingSeries, Structure
+from kovacic.engine.families import Roots, first_case_choices
 from kovacic.engine.invariants import invariants
 from kovacic.engine.local import (
     DegreeBound,
@@ -34,10 +36,11 @@ from kovacic.engine.local import (
     omega_parts,
     rational_omega,
 )
-from kovacic.engine.places import Place, Problem
+from kovacic.engine.places import Kind, Place, Problem
 from kovacic.engine.riccati import Form, Found, Outcome, normalised, singular_factor
-from kovacic.engine.terminating import candidates, terminating_series
+from kovacic.engine.terminating import terminating_series
 from kovacic.errors import LimitExceeded
+from kovacic.limits import MOST_TRIALS
 
 
 def decide_rational_omega(problem: Problem) -> Outcome:
@@ -140,7 +143,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
     # Only finitely many local solutions can belong to omega there; the cheapest such place.
     suitable = (place for place in problem.places if not place.is_apparent)
     place = min(suitable, key=lambda place: (place.degree, not place.logarithm, not place.at_infinity))
-    degrees = _FIRST_DEGREES if bound is None else _ladder(bound.largest)
+    degrees = _first_degrees(problem) if bound is None else _ladder(bound.largest)
     # For small degrees the expansion that can be left out costs less than to find it.
     exponents = bound.exponents(place) if bound is not None and bound.largest > degrees[0] else None
     lifter = Lifter(problem.field)
@@ -167,16 +170,38 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
 
 
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
-    """Every omega = R/D + P'/P over K with a P of low degree, by Kovacic's families."""
-    found = list[Form]()
-    tried = candidates(problem)
-    for degree, theta in tried.pairs if tried else ():
-        R = (theta * problem.D).num
-        if degree <= _FIRST_DEGREES[-1] and R.field == problem.field:
-            P = _polynomial_part(problem, R, degree)
-            if P is not None and (form := normalised(Form(1, R, P), problem)) not in found:
-                found.append(form)  # once, though P may have zeros at an apparent singularity
-    return found
+    """Every omega = R/D + P'/P over K with a P of low degree, told apart by their exponents at a place."""
+    # Where all solutions may look alike, two expansions of one exponent differ in no earlier term than that of their difference.
+    singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
+    for place in sorted(
+        singular, key=lambda place: (-(place.delta or 0) if place.is_apparent else -math.inf, place.degree)
+    ):
+        roots = Roots(problem.field)
+        choices = first_case_choices(place, roots) or ()
+        exponents = [problem.field.poly([1]) * c.value for c in choices] if roots.field == problem.field else []
+        if exponents and len(set(exponents)) == len(exponents):
+            # At infinity a power of x, whose exponent e is that of (1/x)^(1 - e) in the chart.
+            found = [_of_exponent(problem, place, 1 - e if place.at_infinity else e) for e in exponents]
+            return [form for form in found if form is not None]
+    return []
+
+
+def _of_exponent(problem: Problem, place: Place, exponent: Poly) -> Form | None:
+    """The omega over K with a P of low degree and this exponent, if a few primes are enough to find it."""
+    degrees = _first_degrees(problem)
+    lifter = Lifter(problem.field)
+    for bundle in islice(problem.field.bundles(), MOST_TRIALS):
+        problem.budget.check()
+        try:
+            found = [_omega_modulo(h, problem, place, degrees, [exponent]) for h in bundle]
+        except BadPrimeError:
+            continue
+        if None in found:
+            return None
+        form = _lifted_omega(problem, lifter, bundle, [part for part in found if part is not None])
+        if form is not None:
+            return form
+    return None
 
 
 def _lifted_omega(
@@ -193,8 +218,9 @@ def _lifted_omega(
     return None if P is None else Form(1, proposal[0], P)
 
 
-#: Degrees of P that are tried before their bound is computed where that is the more expensive part.
-_FIRST_DEGREES = [8, 32]
+def _first_degrees(problem: Problem) -> list[int]:
+    """Degrees of P that are tried before their bound is computed where that is the more expensive part."""
+    return [min(degree, problem.budget.limits.unknown_degree) for degree in (8, 32)]
 
 
 def _ladder(bound: int) -> list[int]:
@@ -207,7 +233,7 @@ def _omega_modulo(
     problem: Problem,
     place: Place,
     degrees: list[int],
-    exponents: list[Fraction] | None,
+    exponents: list[Poly] | None,
 ) -> tuple[Any, int] | None:
     """R and deg P of the only rational omega modulo p; None if there is none.
 
@@ -217,7 +243,8 @@ def _omega_modulo(
     c = modular_chart(h, problem, place)
     if c is None:
         raise BadPrimeError("the place has no root modulo this prime")
-    parts = exponential_parts(c.equation, place, exponents)
+    allowed = None if exponents is None else [int(h(exponent)[0]) for exponent in exponents]
+    parts = exponential_parts(c.equation, place, allowed)
     for degree in degrees:
         problem.budget.check()
         if degree > problem.budget.limits.unknown_degree:

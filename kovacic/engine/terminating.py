@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
 from math import prod
-from typing import NamedTuple
 
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.poly import Poly
@@ -55,15 +54,8 @@ def terminating_series(problem: Problem) -> TerminatingSeries | NoTerminatingSer
     return NoTerminatingSeries(search.count) if search.known and search.complete else None
 
 
-class Candidates(NamedTuple):
-    """Every theta with a natural degree of P, by this degree; `complete` as in `SeriesSearch`."""
-
-    pairs: list[tuple[int, RatFunc]]
-    complete: bool
-
-
-def candidates(problem: Problem) -> Candidates | None:
-    """Kovacic's theta; None if they are too many, or over other fields than that of S and one with a square root."""
+def search_series(problem: Problem) -> SeriesSearch | None:
+    """All theta, by the degree of P up to the first that isn't decided; None if they are too many, or over other fields."""
     roots = Roots(problem.field, "c")
     *poles, infinity = problem.places
     points = [*points_of_place(infinity, roots), *chain.from_iterable(points_of_place(place, roots) for place in poles)]
@@ -85,18 +77,9 @@ def candidates(problem: Problem) -> Candidates | None:
             if not any([*theta.num.parts[1:], *theta.den.parts[1:]]):  # over K, if it doesn't contain c
                 theta = RatFunc(theta.num.parts[0], theta.den.parts[0])
             tried.append((degree, theta))
-    is_complete = field == problem.field and all(point.count == 1 for point in points)
-    return Candidates(sorted(tried, key=lambda pair: pair[0]), is_complete)
-
-
-def search_series(problem: Problem) -> SeriesSearch | None:
-    """All theta, by the degree of P up to the first that isn't decided; None without the candidates."""
-    tried = candidates(problem)
-    if tried is None:
-        return None
     found = []
     is_known = True
-    for degree, theta in tried.pairs:
+    for degree, theta in sorted(tried, key=lambda pair: pair[0]):
         problem.budget.check()
         recurrences = (
             (centre, recurrence_about(centre, problem.S, theta)) for centre in _possible_centres(problem, theta)
@@ -108,7 +91,8 @@ def search_series(problem: Problem) -> SeriesSearch | None:
         lowest = recurrence.lowest(degree)
         if lowest is not None:
             found.append(TerminatingSeries(theta, centre, recurrence.step, degree, lowest))
-    return SeriesSearch(tuple(found), is_known, tried.complete, len(tried.pairs))
+    is_complete = field == problem.field and all(point.count == 1 for point in points)
+    return SeriesSearch(tuple(found), is_known, is_complete, len(tried))
 
 
 def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:

@@ -156,3 +156,34 @@ def test_what_the_other_doors_say() -> None:
     assert found.rhs.has(sympy.hyper)
     with pytest.raises(kovacic.LimitExceeded, match="a rational solution may have degree 1000000000"):
         kovacic.solve_riccati("w' = x^2 + 2000000001 - w^2")
+
+
+@pytest.mark.parametrize(
+    "omega",
+    [
+        "30/x + 5^90/(x^3 - 2)",  # a logarithm at 0 isn't looked for: all solutions may look alike there
+        "9/x + x/(x^2 - 1) + x/(x^2 - 4) + 2*x/(3*(x^2 - 9)) + 2*x/(3*(x^2 - 16))",  # 2^10 combinations of exponents
+        "x + 1/(3*x) + 1/(x^3 - 2)",
+        "30/(x^2 - 2) + 2*I/x",
+        "29*a/x + 2*x/(x^2 - 5)",
+        "2*x + 30/x + 2*x/(x^2 + 3)",
+        "-9/x^2 + 40/x + 2*x/(x^2 + 3)",
+        "30/x^2 - 2/x - 1/(x - 3)",
+        "40*x/(x^2 - 2) + 3/(x^2 + 1)",
+        "3*x^2 + 40*x/(x^2 - 2)",
+        "2*x - 3/x",  # x^4 and x^-3 at 0, in steps of 2, and different ends at infinity
+        "30/(x - 1) - 3/x",  # poles alone, at 0 with solutions that look alike
+        "x + 4*x^3/(x^4 + 3*x^2 + 3/4)",  # the zeros of a Hermite polynomial
+    ],
+)
+def test_a_simple_solution_beside_exponents_that_are_far_apart(omega: str) -> None:
+    w = sympy.sympify(omega.replace("^", "**"))
+    point = {x: 0.7, "a": 1.3}
+    answer = kovacic.solve(w.diff(x) + w**2, limits=kovacic.Limits(unknown_degree=5))
+    assert answer.verified
+    assert abs(complex(((answer.omega._sympy_() - w) / w).subs(point))) < 1e-12
+
+
+def test_no_simple_solution_with_irrational_exponents() -> None:
+    answer = kovacic.solve("7/x^2 + 870/(x - 1)^2", limits=kovacic.Limits(unknown_degree=5))
+    assert answer.reason == "an invariant of degree 2 may have degree 58, above the limit of 5"
