@@ -171,7 +171,7 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
 
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
     """Every omega = R/D + P'/P over K with a P of low degree, told apart by their exponents at a place."""
-    # Where all solutions may look alike, two expansions of one exponent differ in no earlier term than that of their difference.
+    # Where all solutions may look alike, those of the smaller exponent agree up to the term of the difference of the exponents.
     singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
     for place in sorted(
         singular, key=lambda place: (-(place.delta or 0) if place.is_apparent else -math.inf, place.degree)
