@@ -39,7 +39,7 @@ from kovacic.parametric.claims import (
     ParameterPoint,
     over_parameters,
 )
-from kovacic.parametric.exponents import without_constant_pivots, zeros_of_forms
+from kovacic.parametric.exponents import _primitive, without_constant_pivots, zeros_of_forms
 from kovacic.parametric.formulas import partial_fractions, root_written, shortest_form, with_gathered_powers
 from kovacic.parametric.integers import Congruence, at_integers, natural_root, squares_of_roots
 from kovacic.parametric.natural import Natural
@@ -55,7 +55,7 @@ from kovacic.parametric.regions import (
 from kovacic.parametric.restriction import hypersurface
 from kovacic.parametric.riemann import Schwarz, kimura_statements, kimura_structure, verdict_by_exponents
 from kovacic.parametric.search import search_special_values
-from kovacic.parametric.solutions import PolynomialSolution, Progression, jacobi, natural_value
+from kovacic.parametric.solutions import PolynomialSolution, Progression, derivative, jacobi, natural_value
 from kovacic.parametric.statements import ALWAYS, Setting, Statement, Vanishes, all_of
 from kovacic.reading.read import read_input
 
@@ -527,6 +527,37 @@ def test_powers_are_gathered() -> None:
         ([(x**2 + 3) ** a, x**2 + 5, b + 2], (x**2 + 3) ** a * (x**2 + 5)),
     ):
         assert with_gathered_powers(sympy.Mul(*factors), x) == gathered
+
+
+def test_one_formula_for_all_signs() -> None:
+    """Bessel's equation: exp(+-i x) and x^(1/2 +- n), the signs in one formula."""
+    theorem = kovacic.conditions("(4*n^2 - 1)/(4*x^2) - 1", var="x").theorem()
+    assert "y = x^(n*zeta + 1/2)*exp(I*epsilon*x)*assoc_laguerre(N, 2*n*zeta, -2*I*epsilon*x)" in theorem
+    assert "where N = -(2*n*zeta + 1)/2 is a natural number, with a choice of epsilon and zeta from +-1." in theorem
+
+
+def test_powers_of_square_roots_among_parameters() -> None:
+    field = FunctionField(("b", "sqrt(a)"))
+    root, b = field.generator("sqrt(a)"), field.generator("b")
+    texts = [shortest_form(b * root**k) for k in (1, 2, 3, 4, 6, 8)]
+    assert texts == ["b*sqrt(a)", "b*a", "b*a*sqrt(a)", "b*a^2", "b*a^3", "b*a^4"]
+
+
+def test_derivatives_of_orthogonal_polynomials() -> None:
+    """For a letter in place of the degree as for each degree, 0 among them."""
+    x, n, a = sympy.symbols("x n a")
+    for y in (sympy.hermite(n, 3 * x), sympy.assoc_laguerre(n, a, 2 * x) * x):
+        found = derivative(y, x)
+        for k in (0, 1, 3):
+            given, expected = (f.subs(n, k).subs({x: F(2, 7), a: F(1, 3)}) for f in (found, y.subs(n, k).diff(x)))
+            assert given == expected
+
+
+def test_rows_become_primitive() -> None:
+    field = FunctionField(("a", "b"))
+    a, b = (field.generator(name).num for name in "ab")
+    assert _primitive({1: 6 - 4 * a, 3: 10 * b}) == {1: 2 * a - 3, 3: -5 * b}
+    assert _primitive({1: 6 * a - 9, 3: -15 * b}) == {1: 2 * a - 3, 3: -5 * b}
 
 
 def test_jacobi_polynomials_that_vanish() -> None:
