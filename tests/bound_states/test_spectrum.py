@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import partial
 from math import exp, inf
+from types import SimpleNamespace
 from typing import Any
 
 import mpmath
@@ -18,6 +19,7 @@ from shooting import is_level, zeros
 
 import kovacic
 from kovacic.bound_states.closed_forms import _Window
+from kovacic.bound_states.families import _choices
 from kovacic.bound_states.levels import Levels
 
 x, n = sympy.symbols("x n")
@@ -1357,3 +1359,13 @@ def test_no_level_is_counted_by_a_parameter_inside_a_function(V: str, levels: st
     with pytest.raises(kovacic.InputError, match="q isn't a parameter") as refused:
         kovacic.spectrum(V, assume={"q": "positive"})
     assert refused.value.hint == "the parameters are n"
+
+
+def test_a_complex_exponent_difference_needs_its_conjugate() -> None:
+    """n is real: the exponents of two conjugate points have one sign, and a single one has none."""
+    a, b = 2 + 3 * sympy.I, 2 - 3 * sympy.I
+    one: Any = SimpleNamespace(value=a, signed=[a, -a])
+    other: Any = SimpleNamespace(value=b, signed=[b, -b])
+    real: Any = SimpleNamespace(value=sympy.Integer(5), signed=[5, -5])
+    assert [*_choices([one, real])] == []
+    assert [*_choices([real, one, other])] == [[5, a, b], [5, -a, -b], [-5, a, b], [-5, -a, -b]]

@@ -11,6 +11,8 @@ import kovacic
 from kovacic import eigenvalues
 from kovacic.general_solution.boundary_problems import read_eigenproblem
 from kovacic.sturm_liouville.discs import germ
+from kovacic.sturm_liouville.ends import _times_square
+from kovacic.sturm_liouville.problem import _is_below
 
 HALF_LINE = (0, "oo")
 
@@ -342,3 +344,23 @@ def test_a_germ_has_its_limit_at_zero():
     assert germ(sympy.sin(t), t, 1).subs(t, 0) == 1
     assert germ(1 - sympy.cos(t), t, 2).subs(t, 0) == sympy.Rational(1, 2)
     assert germ(sympy.sin(s * t), t, 1).subs(s, 2) == germ(sympy.sin(2 * t), t, 1)
+
+
+def test_rational_functions_need_no_germs():
+    t = sympy.Dummy("t", positive=True)
+    assert sympy.expand(_times_square(3 / t**2 + 5 / t + 2, t)) == 2 * t**2 + 5 * t + 3
+    assert not _times_square((3 + t) / (t * (t + 2)), t).has(germ)
+    assert _times_square(7 / sympy.sin(t) ** 2 + t, t).subs(t, 0) == 7
+
+
+def test_which_of_two_points_is_below_the_other():
+    """Equal numbers in different forms, too: sqrt(2) + sqrt(3) and sqrt(5 + 2 sqrt(6))."""
+    s, t = sympy.sqrt(2) + sympy.sqrt(3), sympy.sqrt(5 + 2 * sympy.sqrt(6))
+    a, p = sympy.Symbol("a", real=True), sympy.Symbol("p", positive=True)
+    assert not _is_below(s, t)
+    assert not _is_below(t, s)
+    for low, high in ((sympy.pi, sympy.Rational(22, 7)), (-sympy.oo, t), (s, sympy.oo), (a, a + p)):
+        assert _is_below(low, high)
+        assert not _is_below(high, low)
+    with pytest.raises(kovacic.InputError, match="it isn't known whether"):
+        _is_below(a, p)
