@@ -24,6 +24,7 @@ from sympy.functions.elementary.trigonometric import TrigonometricFunction
 from kovacic.bound_states.levels import Spectrum
 from kovacic.bound_states.question import FRIEDRICHS, Asked, SpectralProblem, read_boundary
 from kovacic.bound_states.signs import Signs
+from kovacic.closed_form.steps import JUMPING
 from kovacic.equation import DEFAULT_VARIABLE, EULER, PI, parameters_of
 from kovacic.errors import InputError, LimitExceeded, NotRational
 from kovacic.general_solution.boundary_problems import read_domain
@@ -40,7 +41,7 @@ from kovacic.reading.read import read_input
 from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.substitution import value_text, values_among
 from kovacic.reading.symbolic import expression_of, names_of, read_expression
-from kovacic.sturm_liouville.problem import JUMPS, stretches_of
+from kovacic.sturm_liouville.problem import stretches_of
 from kovacic.writing.formula import caret
 
 #: V(x) = ..., V = ...
@@ -124,7 +125,7 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     """The problem for exact methods.  Raises `NotRational` for a V that isn't rational in one function."""
     question = _with_named_roots(question)
     S = question.S
-    if S.has(*JUMPS):  # absolute values and steps may be one function on the domain
+    if S.has(*JUMPING):  # absolute values and steps may be one function on the domain
         x = sympy.Symbol(question.variable)
         pieces = () if question.letters else stretches_of(S, sympy.S.One, x, question.interval)
         if len(pieces) != 1:

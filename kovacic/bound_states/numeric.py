@@ -16,6 +16,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.bound_states.levels import BoundState, Levels, Spectrum
 from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
+from kovacic.closed_form.steps import JUMPING
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.general_solution.zero import residual_at
 from kovacic.limits import MOST_TRIALS, Budget, Limits
@@ -23,7 +24,7 @@ from kovacic.numbers.exact import whole
 from kovacic.sturm_liouville.ends import is_regular
 from kovacic.sturm_liouville.families import decay, family, matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import JUMPS, Robin, SturmProblem, Wish, ball, point_between, stretches_of
+from kovacic.sturm_liouville.problem import Robin, SturmProblem, Wish, ball, point_between, stretches_of
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 _IMPLICIT = "implicit: the levels are roots of this equation; a root at which a wave number vanishes may be none"
@@ -64,7 +65,7 @@ def with_matching(found: Spectrum) -> Spectrum:
     x, E = sympy.symbols([found.variable, found.energy])
     V = found.potential / found.kinetic
     is_known = any((found.complete, found.formulas, found.needs_boundary_condition))
-    if is_known or not (V.has(*JUMPS) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
+    if is_known or not (V.has(*JUMPING) or (V.is_polynomial(x) and sympy.degree(V, x) <= 1)):
         return found
     real = Signs(found.assumptions, found.parameters).symbols
     plain = {symbol: sympy.Symbol(name) for name, symbol in real.items()}

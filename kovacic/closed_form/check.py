@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from itertools import count
 from typing import Any
 
+import sympy
 from flint import acb, acb_poly, arb, fmpq
 from sympy import Dummy
 
@@ -157,6 +159,28 @@ def is_numerical_solution(expression: Any, variable: Any, S: RatFunc, gauge: Rat
 def check_point() -> Any:
     """An ordinary point of no particular equation, at the precision in force."""
     return acb(arb(fmpq(-137, 101)), arb(fmpq(-71, 89)))
+
+
+def letter_samples(symbols: set[Any]) -> Iterator[dict[Any, Any]]:
+    """Endless values of symbols that fit what is assumed of them: small numbers, the symbols in many orders; {} for none."""
+    ordered = sorted(symbols, key=str)
+    for k in count() if symbols else (0,):
+        # turned round k/2 times, and backwards for odd k: which of two is the larger one may matter
+        start = k // 2 % max(len(ordered), 1)
+        turned = [*ordered[start:], *ordered[:start]][:: (-1) ** k]
+        yield {symbol: _sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
+
+
+def _sample_value(symbol: Any, k: int) -> Any:
+    """The k-th value of a symbol: for integers the k-th natural number, or the k-th of those that are even or odd."""
+    if symbol.is_integer:
+        value = sympy.Integer(k + 1 if symbol.is_odd is None else 2 * k + 2 - symbol.is_odd)
+    else:
+        # Between 1 and 2 but for k, and different for most names.  Numerators are short, since SymPy reduces (17/4)^(5/7) to
+        # a root of 17^5 4^2.
+        code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
+        value = sympy.Rational(102 + 2 * code % 99, 101) + k
+    return -value if symbol.is_nonpositive else value
 
 
 def value_at(r: RatFunc, point: Any) -> Any:

@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy
 
+from kovacic.closed_form.check import letter_samples
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.constants import Determined
@@ -18,7 +19,7 @@ from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Question, with_assumptions
 from kovacic.general_solution.substitution import size
 from kovacic.general_solution.validity import Validity, ZeroSet, gamma_zeros, needed_for
-from kovacic.general_solution.zero import differs_from_zero, letter_samples
+from kovacic.general_solution.zero import differs_from_zero
 
 Expr = Any  # SymPy publishes no types
 #: The last answers, the newest first, for `validity` of their equations.

@@ -15,6 +15,7 @@ from typing import Any
 import sympy
 from sympy import Add, Dummy, Integral, Mul, atan, cancel, cos, exp, expand, log, sin, sqrt
 
+from kovacic.closed_form.check import letter_samples
 from kovacic.closed_form.cuts import cuts_of
 from kovacic.equation import EULER
 from kovacic.general_solution.behaviour import have_values
@@ -34,7 +35,7 @@ from kovacic.general_solution.integrands import (
 )
 from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
-from kovacic.general_solution.zero import ball_of, differs_from_zero, letter_samples
+from kovacic.general_solution.zero import ball_of, differs_from_zero
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types

@@ -25,7 +25,7 @@ from sympy.functions.special.bessel import BesselBase
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import sign_of_root
 from kovacic.closed_form.jets import ANTIDERIVATIVES
-from kovacic.general_solution.steps import jump_place
+from kovacic.closed_form.steps import jump_place
 from kovacic.general_solution.substitution import finite_value, slope
 from kovacic.general_solution.zero import (
     NOT_EVALUATED,

@@ -21,6 +21,7 @@ from sympy.core.function import AppliedUndef
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
 from kovacic.closed_form.cuts import with_positive_factors
 from kovacic.closed_form.product import product
+from kovacic.closed_form.steps import JUMPING, Apart, in_parts
 from kovacic.errors import InputError, UnsatisfiableConditions, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import have_values, value_or_limit
@@ -29,7 +30,6 @@ from kovacic.general_solution.conditions import Condition, conditions_at, read_c
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import free_constants
-from kovacic.general_solution.steps import JUMPING, Apart, in_parts
 from kovacic.general_solution.substitution import by_functions, changed_beside, exact_decimals
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.validity import ZeroSet

@@ -39,6 +39,7 @@ from kovacic.closed_form.atoms import Atoms, is_seen_negative
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import all_turned, cuts_of
 from kovacic.closed_form.form import one_exponential
+from kovacic.closed_form.steps import JUMPING, in_parts
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
 from kovacic.errors import LimitExceeded
@@ -48,7 +49,6 @@ from kovacic.general_solution.behaviour import have_values, value_or_limit, valu
 from kovacic.general_solution.check import is_finite, jumps
 from kovacic.general_solution.constants import tidy
 from kovacic.general_solution.integrands import MOST_COMPLEX, NUMBERS, ChangeOfIntegrand, prepared_integrand, ratfunc
-from kovacic.general_solution.steps import JUMPING, in_parts
 from kovacic.general_solution.substitution import by_functions, size
 from kovacic.general_solution.textbook import is_constant
 from kovacic.general_solution.undetermined import undetermined

@@ -19,13 +19,13 @@ from sympy import DiracDelta, Heaviside, S, Tuple
 
 from kovacic.closed_form import cuts
 from kovacic.closed_form.form import pair_at
+from kovacic.closed_form.steps import is_analytic, jump_place, jump_points
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis, monic_coefficients
 from kovacic.general_solution.behaviour import Approach, have_values
 from kovacic.general_solution.integrands import NUMBERS
 from kovacic.general_solution.particular import right_hand_side, turned_at
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.steps import is_analytic, jump_place, jump_points
 from kovacic.general_solution.validity import needs_of
 from kovacic.general_solution.waves import wave_zeros
 from kovacic.limits import MOST_TRIALS, check_time

@@ -18,11 +18,11 @@ from sympy import Basic, Float, Function, Symbol, Tuple
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from kovacic.closed_form.atoms import Atoms
+from kovacic.closed_form.steps import JUMPING, in_steps
 from kovacic.equation import EULER, PI, Equation, Parsed, parameters_of
 from kovacic.errors import InputError, NotLinear
 from kovacic.general_solution.conditions import Condition, apart, conditions_at, read_conditions, symbols_of
 from kovacic.general_solution.integrands import NUMBERS
-from kovacic.general_solution.steps import JUMPING, in_steps
 from kovacic.general_solution.substitution import exact_decimals
 from kovacic.limits import Limits
 from kovacic.parametric.assumptions import Assumptions, check_mapping, read_assumptions

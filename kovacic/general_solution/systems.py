@@ -20,6 +20,7 @@ from sympy.core.function import AppliedUndef
 from sympy.solvers.ode.systems import ODEOrderError, linear_ode_to_matrix
 from sympy.solvers.solveset import NonlinearError
 
+from kovacic.closed_form.steps import JUMPING, in_steps, split_at_jumps
 from kovacic.equation import eliminated
 from kovacic.errors import InputError, NotLinear, UnsatisfiableConditions
 from kovacic.general_solution.answer import vanishes_with
@@ -38,7 +39,6 @@ from kovacic.general_solution.first_order import (
     zeros_of,
 )
 from kovacic.general_solution.question import free_constants
-from kovacic.general_solution.steps import JUMPING, in_steps, split_at_jumps
 from kovacic.general_solution.substitution import exact_decimals, inverted, size, slope
 from kovacic.general_solution.textbook import in_book_form, sums
 from kovacic.general_solution.validity import ZeroSet

@@ -22,10 +22,11 @@ from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
+from kovacic.closed_form.check import letter_samples
 from kovacic.closed_form.cuts import cut_of
 from kovacic.general_solution.substitution import in_single_waves, size
 from kovacic.general_solution.textbook import in_hyperbolic_functions, in_root
-from kovacic.general_solution.zero import agree, by_parity, is_nowhere_zero, is_positive_polynomial, letter_samples
+from kovacic.general_solution.zero import agree, by_parity, is_nowhere_zero, is_positive_polynomial
 from kovacic.limits import manageable
 
 Expr = Any  # SymPy publishes no types

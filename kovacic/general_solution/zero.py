@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from enum import Enum
-from itertools import count, islice
+from itertools import islice
 from typing import Any
 
 import sympy
@@ -21,7 +21,7 @@ from flint import acb, arb, fmpq
 from sympy import Dummy, Poly, expand
 
 from kovacic.algebra.precision import working_digits
-from kovacic.closed_form.check import DIGITS
+from kovacic.closed_form.check import DIGITS, letter_samples
 from kovacic.closed_form.jets import ARBITRARY, jet
 from kovacic.general_solution.integrands import prepared_integrand
 from kovacic.general_solution.substitution import in_single_waves
@@ -131,16 +131,6 @@ def by_parity(value: Expr) -> list[Expr]:
     return [sympy.factor_terms(sympy.powsimp(part)) for part in parts]
 
 
-def letter_samples(symbols: set[Expr]) -> Iterator[dict[Expr, Expr]]:
-    """Endless values of symbols that fit what is assumed of them: small numbers, the symbols in many orders; {} for none."""
-    ordered = sorted(symbols, key=str)
-    for k in count() if symbols else (0,):
-        # turned round k/2 times, and backwards for odd k: which of two is the larger one may matter
-        start = k // 2 % max(len(ordered), 1)
-        turned = [*ordered[start:], *ordered[:start]][:: (-1) ** k]
-        yield {symbol: _sample_value(symbol, k + 3 * position) for position, symbol in enumerate(turned)}
-
-
 def generic_samples(symbols: set[Expr], natural: Expr | None = None) -> Iterator[dict[Expr, Expr]]:
     """Some `letter_samples` for which `natural` isn't negative, without the first one: the smallest integers are special."""
     later = islice(letter_samples(symbols), int(bool(symbols)), 1 + 4 * _LETTER_SAMPLES)
@@ -150,18 +140,6 @@ def generic_samples(symbols: set[Expr], natural: Expr | None = None) -> Iterator
 def opposite(sample: dict[Expr, Expr]) -> dict[Expr, Expr]:
     """The values with the other sign for symbols of unknown sign."""
     return {s: -value if {s.is_nonnegative, s.is_nonpositive} == {None} else value for s, value in sample.items()}
-
-
-def _sample_value(symbol: Expr, k: int) -> Expr:
-    """The k-th value of a symbol: for integers the k-th natural number, or the k-th of those that are even or odd."""
-    if symbol.is_integer:
-        value = sympy.Integer(k + 1 if symbol.is_odd is None else 2 * k + 2 - symbol.is_odd)
-    else:
-        # Between 1 and 2 but for k, and different for most names.  Numerators are short, since SymPy reduces (17/4)^(5/7) to
-        # a root of 17^5 4^2.
-        code = sum(ord(character) * 31**place for place, character in enumerate(symbol.name))
-        value = sympy.Rational(102 + 2 * code % 99, 101) + k
-    return -value if symbol.is_nonpositive else value
 
 
 def ball_of(value: Expr, sample: dict[Expr, Expr] | None = None) -> Any:

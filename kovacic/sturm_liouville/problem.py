@@ -9,20 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key, wraps
-from itertools import combinations
 from typing import Any, TypeVar
 
 import sympy
 from flint import acb, arb, fmpq
-from sympy.core.relational import Relational
 
 from kovacic.closed_form.jets import BallEvaluator
+from kovacic.closed_form.steps import JUMPING, in_steps, jump_place, jumps_in, on_piece, split_at_jumps
 from kovacic.errors import InputError
 
 Expr = Any
 _T = TypeVar("_T")
-#: Functions in pieces.
-JUMPS = (sympy.Abs, sympy.sign, sympy.Heaviside, sympy.Piecewise, sympy.Min, sympy.Max, sympy.DiracDelta)
 
 
 @dataclass(frozen=True)
@@ -127,66 +124,48 @@ def stretches_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[
     Raises `InputError` if these points can't be found, for a delta function at an end or in a product, and if W isn't shown to
     be positive between them.
     """
-    places = [domain[0], *_breaks(Q + x * W, x, domain), domain[1]]
-    deltas = [_delta_at(place, Q, x) for place in places]
-    if deltas[0] != 0 or deltas[-1] != 0 or W.has(sympy.DiracDelta):
+    places = [domain[0], *_breaks(sympy.Tuple(Q, W), x, domain), domain[1]]
+    impulses = _impulses(Q, x)
+    deltas = [sympy.Add(*(s for a, s in impulses.items() if sympy.simplify(a - place) == 0)) for place in places]
+    if deltas[0] != 0 or deltas[-1] != 0 or _impulses(W, x):
         raise InputError("a delta function at an end of the domain, or as a weight, isn't defined here")
     found = []
     for low, high, delta in zip(places, places[1:], deltas, strict=False):
         inside = point_between(low, high)
-        piece = Stretch(low, high, _resolved(Q, x, inside), _resolved(W, x, inside), delta)
+        piece = Stretch(low, high, _near(Q, x, inside), _near(W, x, inside), delta)
         _check_weight(piece, x, inside)
         found.append(piece)
     return tuple(found)
 
 
-def _delta_at(place: Expr, Q: Expr, x: Expr) -> Expr:
-    """The strength of the delta functions at a point: f(x) delta(g(x)) has f/|g'| where g = 0."""
-    strength = sympy.S.Zero
-    for step in Q.atoms(sympy.DiracDelta):
-        factor = sympy.expand(Q).coeff(step)
-        rest = sympy.expand(Q - factor * step)
-        if len(step.args) > 1 or factor.has(*JUMPS) or rest.has(step):
-            raise InputError(f"{step} is expected alone, or times a function without steps")
-        (g,) = step.args
-        if place.is_finite is not False and sympy.simplify(g.subs(x, place)) == 0:
-            strength += (factor / sympy.Abs(g.diff(x))).subs(x, place)
-    return strength
+def _impulses(Q: Expr, x: Expr) -> dict[Expr, Expr]:
+    """The strengths of the delta functions, by their places."""
+    terms = sympy.Add.make_args(sympy.expand(Q))
+    right = sympy.Add(*(term for term in terms if term.has(sympy.DiracDelta, sympy.SingularityFunction)))
+    apart = split_at_jumps(in_steps(right, x), x)
+    if apart is None or any(n for strengths in apart.impulses.values() for n in strengths):
+        raise InputError(f"delta functions are expected alone, or times functions without steps there: {right}")
+    return {a: strengths[0] for a, strengths in apart.impulses.items()}
 
 
 def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
     """The points strictly inside the domain, in order."""
-    steps = [step for step in e.atoms(*JUMPS) if step.has(x)]
-    switches = {switch for step in steps for switch in _branches(step)[0]}
     points = set()
-    while any(switch.has(sympy.Abs) for switch in switches):  # |f| is f or -f
-        switches = {switch.replace(sympy.Abs, lambda f, sign=sign: sign * f) for switch in switches for sign in (1, -1)}
-    for switch in switches:
-        if not switch.is_polynomial(x):
-            raise InputError(f"it isn't known where {switch} changes its sign")
-        polynomial = sympy.Poly(switch, x)
-        is_rational = polynomial.domain in (sympy.ZZ, sympy.QQ)
-        roots = polynomial.real_roots() if is_rational else sympy.solve(switch, x)
-        points |= {root for root in roots if root.is_real is not False}
+    for step in sorted(jumps_in(e, x), key=str):
+        place = jump_place(step, x)
+        if place is None or place.a.is_real is False:
+            raise InputError(f"it isn't known where {step.args[0]} changes its sign")
+        points.add(place.a)
     inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
     return sorted(inside, key=cmp_to_key(lambda a, b: -1 if _is_below(a, b) else 1))
 
 
-def _branches(step: Expr) -> tuple[Sequence[Expr], Sequence[Expr]]:
-    """Functions of which one changes its sign where a step changes, and the values of the step between such places."""
-    if isinstance(step, sympy.Piecewise):
-        relations = [relation for _, condition in step.args for relation in condition.atoms(Relational)]
-        return [relation.lhs - relation.rhs for relation in relations], [value for value, _ in step.args]
-    if isinstance(step, (sympy.Min, sympy.Max)):
-        return [a - b for a, b in combinations(step.args, 2)], step.args
-    one, zero = sympy.S.One, sympy.S.Zero
-    values: dict[Any, tuple[Expr, ...]] = {
-        sympy.Abs: (step.args[0], -step.args[0]),
-        sympy.sign: (one, -one),
-        sympy.Heaviside: (one, zero),
-        sympy.DiracDelta: (zero,),
-    }
-    return step.args[:1], values[step.func]
+def _near(e: Expr, x: Expr, inside: Expr) -> Expr:
+    """Without absolute values, signs, steps and cases, as they are around a point."""
+    found = on_piece(e, x, inside)
+    if any(step.has(x) or not e.has(step) for step in found.atoms(*JUMPING)):
+        raise InputError(f"it isn't known what {e} is at {x} = {inside}")
+    return found
 
 
 def _is_below(a: Expr, b: Expr) -> bool:
@@ -220,20 +199,6 @@ def dyadic_midpoint(value: Any) -> Expr:
     """The midpoint of a ball, exactly."""
     mantissa, exponent = value.mid().man_exp()
     return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
-
-
-def _resolved(e: Expr, x: Expr, inside: Expr) -> Expr:
-    """Without absolute values, signs, steps and cases, as they are around a point."""
-    while True:
-        steps = [step for step in e.atoms(*JUMPS) if step.has(x)]
-        if not steps:
-            return e
-        innermost = min(steps, key=sympy.count_ops)
-        there = innermost.subs(x, inside)
-        value = next((value for value in _branches(innermost)[1] if value.subs(x, inside) == there), None)
-        if value is None:
-            raise InputError(f"it isn't known what {innermost} is at {x} = {inside}")
-        e = e.xreplace({innermost: value})
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
@@ -290,12 +255,12 @@ def normal_form(
     if any(e.has(sympy.I) for e in coefficients):
         raise InputError("the coefficients aren't real")
     B = sympy.cancel(b / a) if (b / a).is_rational_function(x) else sympy.simplify(b / a)
-    if B.has(*JUMPS):
+    if B.has(*JUMPING):
         raise InputError("the coefficient of y' is a function in pieces, for which eigenvalues aren't computed")
     Q = plain(B**2 / 4 + B.diff(x) / 2 - c0 / a, x)
     W = plain(c1 / a, x)
     inside = point_between(*domain)
-    sign = 1 if ball(_resolved(W, x, inside).subs(x, inside)) > 0 else -1
+    sign = 1 if ball(_near(W, x, inside).subs(x, inside)) > 0 else -1
     return stretches_of(Q, sign * W, x, domain), B, sign
 
 

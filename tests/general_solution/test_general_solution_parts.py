@@ -17,7 +17,7 @@ from sympy import Rational, Symbol, cos, exp, log, oo, pi, sin, sqrt
 
 import kovacic
 from kovacic import answer_to, dsolve
-from kovacic.general_solution import steps
+from kovacic.closed_form import steps
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import (
     _LEADING,
@@ -429,6 +429,8 @@ def test_steps_in_cases_and_in_steps() -> None:
     assert sympy.expand(steps.in_steps(inside, x) - sympy.Heaviside(x + 1) * (1 - sympy.Heaviside(x - 1))) == 0
     assert steps.heaviside_of(x * sympy.Heaviside(x) - 1, x) == sympy.Heaviside(x - 1)
     assert steps.split_at_jumps(sympy.DiracDelta(x - 1) * sympy.Heaviside(x - 1), x) is None
+    near = (sympy.DiracDelta(x - 2) + sympy.DiracDelta(x + 2)) / 4
+    assert steps.in_steps(sympy.DiracDelta(x**2 - 4), x) == sympy.expand(near)
 
 
 def test_constants_that_nothing_determines() -> None:

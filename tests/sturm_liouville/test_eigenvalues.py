@@ -12,7 +12,7 @@ from kovacic import eigenvalues
 from kovacic.general_solution.boundary_problems import read_eigenproblem
 from kovacic.sturm_liouville.discs import germ
 from kovacic.sturm_liouville.ends import _times_square
-from kovacic.sturm_liouville.problem import _is_below
+from kovacic.sturm_liouville.problem import _is_below, stretches_of
 
 HALF_LINE = (0, "oo")
 
@@ -326,6 +326,34 @@ def test_a_comb_of_delta_functions(strength: int, conditions: str, side: int) ->
     for level in found:
         k = cmath.sqrt(float(level.value))
         assert abs(cmath.cos(k) + strength * cmath.sin(k) / (2 * k) - side) < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("V", "pieces"),
+    [
+        ("abs(abs(abs(x) - 2) - 1)", "-3 -x - 3, -2 x + 3, -1 -x - 1, 0 x + 1, 1 1 - x, 2 x - 1, 3 3 - x, oo x - 3"),
+        ("Max(1, -x, x)", "-1 -x, 1 1, oo x"),
+        ("Piecewise((0, abs(x) < L), (1, True))", "-L 1, 0 0, L 0, oo 1"),
+        ("SingularityFunction(x, 1, 1)", "1 0, oo x - 1"),
+    ],
+)
+def test_pieces_of_a_potential(V: str, pieces: str) -> None:
+    x, L = sympy.Symbol("x"), sympy.Symbol("L", positive=True)
+    found = stretches_of(sympy.sympify(V, {"x": x, "L": L}), sympy.S.One, x, (-sympy.oo, sympy.oo))
+    assert ", ".join(f"{piece.high} {piece.Q}" for piece in found) == pieces
+
+
+def test_delta_functions_of_polynomials_and_at_sums_of_roots() -> None:
+    x, a = sympy.Symbol("x"), sympy.Symbol("a", positive=True)
+    for u, strength in (
+        (x - sympy.sqrt(2) * (1 + sympy.sqrt(3)), 1),
+        (x**3 - 1, sympy.Rational(1, 3)),
+        (a * x - 2, 1 / a),
+    ):
+        _, right = stretches_of(sympy.DiracDelta(u), sympy.S.One, x, (-sympy.oo, sympy.oo))
+        assert right.delta == strength
+    with pytest.raises(kovacic.InputError, match="changes its sign"):
+        stretches_of(sympy.DiracDelta(abs(x) - 1), sympy.S.One, x, (-sympy.oo, sympy.oo))
 
 
 def test_a_delta_function_as_a_weight_is_refused() -> None:

@@ -6,7 +6,7 @@ Functions that jump, or whose slopes do, are sums of steps:
 - A function of a step is F(H) = F(0) + (F(1) - F(0)) H, and H(u)^n = H(u).
 - Macaulay's bracket <u>^n is u^n H(u), and an impulse for n < 0.
 - A function given by cases is the sum of its cases times their indicators.
-- For a linear u, or a polynomial over Q, H(u) is a sum of H(x - a) over its zeros.
+- For a linear u, or a polynomial with known zeros, H(u) is a sum of H(x - a) over these, and delta(u) one of delta(x - a).
 
 `_IDENTITIES` has most of these.  What holds at single points doesn't matter.  x is real.
 """
@@ -22,12 +22,11 @@ from math import comb
 from typing import Any, NamedTuple
 
 import sympy
-from sympy import Add, DiracDelta, Heaviside, Integer, Mul, Piecewise, Rational, exp, expand, oo
+from sympy import Add, DiracDelta, Heaviside, Integer, Mul, Piecewise, Rational, exp, expand
 from sympy.logic.boolalg import And, Or
-from sympy.solvers.inequalities import solve_poly_inequality
 
+from kovacic.closed_form.check import letter_samples
 from kovacic.errors import InputError
-from kovacic.general_solution.zero import letter_samples
 
 Expr = Any  # SymPy publishes no types
 
@@ -129,7 +128,7 @@ def split_at_jumps(right: Expr, x: Expr) -> Apart | None:
             strength = (-1) ** k * comb(n, k) * g.diff(x, k).subs(x, a) / (abs(slope) * slope**n)
             if strength != 0 and side.is_positive:
                 impulses[a][n - k] += strength
-    plain = steps.pop(-oo, sympy.S.Zero)
+    plain = steps.pop(-sympy.oo, sympy.S.Zero)
     return Apart(plain, {a: g for a, g in steps.items() if g != 0}, impulses)
 
 
@@ -153,6 +152,8 @@ def in_steps(right: Expr, x: Expr) -> Expr:
     """
 
     def rewritten(jump: Expr) -> Expr:
+        if isinstance(jump, Piecewise):
+            _check_cases(jump, x)
         found = _at_points(_in_heavisides(jump, x), x)
         return found if all(_is_simple(e, x) for e in found.atoms(*JUMPING) if e.has(x)) else jump
 
@@ -188,24 +189,37 @@ def _with_steps_outside(e: Expr, x: Expr) -> Expr:
 
 
 def _at_points(e: Expr, x: Expr) -> Expr:
-    """With H(x - a) for other steps H(u), where the zeros of u are known."""
-    return e.replace(lambda e: isinstance(e, Heaviside) and e.has(x), lambda e: heaviside_of(e.args[0], x))
+    """With H(x - a) and delta(x - a) for H(u) and delta(u), where the zeros of u are known."""
+    e = e.replace(lambda e: isinstance(e, Heaviside) and e.has(x), lambda e: heaviside_of(e.args[0], x))
+    return e.replace(lambda e: isinstance(e, DiracDelta) and e.has(x), lambda e: _delta_of(e, x))
+
+
+def _delta_of(impulse: Expr, x: Expr) -> Expr:
+    """delta(u), the sum of delta(x - a)/|u'(a)| over the zeros a of u; others are returned unchanged."""
+    u, *order = impulse.args
+    zeros = _zeros(u, x)
+    if order or zeros is None or any(k > 1 for _, k in zeros):
+        return impulse
+    return Add(*(DiracDelta(x - a) / sympy.Abs(u.diff(x).subs(x, a)) for a, _ in zeros))
 
 
 def _in_heavisides(e: Expr, x: Expr) -> Expr:
-    """A function that jumps in terms of H(u) and impulses.  Raises `InputError` for cases with a gap between them."""
+    """A function that jumps in terms of H(u) and impulses; cases are 0 where none holds."""
     if not isinstance(e, Piecewise):
         return _IDENTITIES[e.func](*e.args)
-    total = gap = sympy.Dummy()
+    total = sympy.S.Zero
     for value, condition in reversed(e.args):
         on = _indicator(condition, x)
         total = on * value + (1 - on) * total
-    # with parameters that is tried at one value of each
-    missing = expand(total).diff(gap).subs(next(letter_samples(e.free_symbols - {x})))
-    has_gap = any(on_piece(missing, x, point) != 0 for point in between(break_points(missing, x)))
-    if has_gap or total.has(sympy.nan):
+    return total
+
+
+def _check_cases(e: Expr, x: Expr) -> None:
+    """Raise `InputError` for cases with a gap between them; with parameters that is tried at one value of each."""
+    sample = e.subs(next(letter_samples(e.free_symbols - {x})))
+    points = between(break_points(sample, x))
+    if e.has(sympy.nan) or any(on_piece(sample, x, point).has(Piecewise) for point in points):
         raise InputError(f"{e} has no value where no case holds", hint="add a last case, such as (0, True)")
-    return total.xreplace({gap: sympy.S.Zero})
 
 
 def _indicator(condition: Expr, x: Expr) -> Expr:
@@ -223,7 +237,7 @@ def _indicator(condition: Expr, x: Expr) -> Expr:
 
 def _is_simple(e: Expr, x: Expr) -> bool:
     """True for H(x - a) and delta^(n)(x - a)."""
-    return isinstance(e, DiracDelta) or (isinstance(e, Heaviside) and e.args[0].diff(x) == 1)
+    return isinstance(e, DiracDelta | Heaviside) and e.args[0].diff(x) == 1
 
 
 def heaviside_of(u: Expr, x: Expr) -> Expr:
@@ -241,21 +255,47 @@ def heaviside_of(u: Expr, x: Expr) -> Expr:
     if not slope.has(x) and (slope.is_positive or slope.is_negative):
         step = Heaviside(x - expand(x - u / slope))
         return step if slope.is_positive else 1 - step
-    if not u.is_polynomial(x) or sympy.Poly(u, x).domain not in (sympy.ZZ, sympy.QQ):
+    zeros = _zeros(u, x)
+    if zeros is None:
         return Heaviside(u)
-    beyond = {-oo: Integer(1), oo: Integer(0)}
-    intervals = solve_poly_inequality(sympy.Poly(u, x), ">")
-    ends = ((on.start, on.end) for on in intervals)
-    return Add(*(beyond.get(a, Heaviside(x - a)) - beyond.get(b, Heaviside(x - b)) for a, b in ends))
+    # u has the sign of its first derivative that isn't 0 behind a zero, and the other one before it if that is an odd one
+    changes = [sympy.sign(u.diff(x, k).subs(x, a)) * Heaviside(x - a) for a, k in zeros if k % 2]
+    begin = sympy.sign(sympy.LC(u, x) * (-1) ** sympy.degree(u, x))
+    return (1 + begin) / 2 + Add(*changes)
+
+
+def _zeros(u: Expr, x: Expr) -> list[tuple[Expr, int]] | None:
+    """The real zeros of a polynomial with their multiplicities; None for others, and if it isn't known which ones are real."""
+    if not u.is_polynomial(x):
+        return None
+    polynomial = sympy.Poly(u, x)
+    if polynomial.domain in (sympy.ZZ, sympy.QQ):
+        return list(polynomial.real_roots(multiple=False))
+    zeros = sympy.roots(polynomial)
+    is_known = sum(zeros.values()) == polynomial.degree() and all(a.is_real is not None for a in zeros)
+    return [(a, k) for a, k in zeros.items() if a.is_real] if is_known else None
 
 
 # ------------------------------------------------------------------------------------------------- between the jumps
 
 
+def jumps_in(expression: Expr, x: Expr) -> set[Expr]:
+    """H(x - a) and delta(x - a) at the points a where an expression may jump; other H(u) where these aren't known."""
+    found: set[Expr] = set()
+
+    def noted(jump: Expr) -> Expr:
+        plain = _at_points(_in_heavisides(jump, x), x)
+        found.update(step for step in plain.atoms(*JUMPING) if step.has(x))
+        return plain
+
+    expression.replace(lambda e: isinstance(e, JUMPING) and e.has(x), noted)
+    return found
+
+
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The known points where functions in an expression jump, from left to right."""
-    parts = sympy.Tuple(*(_at_points(_in_heavisides(e, x), x) for e in expression.atoms(*JUMPING) if e.has(x)))
-    return sorted((a for a in jump_points(parts, x) if a.is_number and a.is_real), key=lambda a: float(a.evalf()))
+    places = jump_points(sympy.Tuple(*jumps_in(expression, x)), x)
+    return sorted((a for a in places if a.is_number and a.is_real), key=lambda a: float(a.evalf()))
 
 
 def between(breaks: Sequence[Expr]) -> list[Expr]:
@@ -268,13 +308,16 @@ def between(breaks: Sequence[Expr]) -> list[Expr]:
 
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:
-    """The expression near a rational point that is no break, without functions that jump."""
+    """The expression near a point that is no break, without functions that jump, where their signs are known."""
 
     def near(jump: Expr) -> Expr:
         if isinstance(jump, DiracDelta):
             return Integer(0)
         if isinstance(jump, Heaviside):
             return (1 + sympy.sign(jump.args[0].subs(x, point))) / 2
+        if isinstance(jump, Piecewise):
+            which = Piecewise(*((k, condition.subs(x, point)) for k, (_, condition) in enumerate(jump.args)))
+            return jump.args[which].expr if which.is_Integer else jump
         plain = _in_heavisides(jump, x)
         return jump if plain == jump else on_piece(plain, x, point)
 
