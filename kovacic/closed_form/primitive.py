@@ -183,13 +183,12 @@ def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
 
 
 def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[GammaTerm]:
-    """Terms with 0 <= s < 1 for E = beta x^n + e; for alpha = 0, s = 0 and s = 1/2 are Ei and error functions, found before."""
+    """Terms with 0 < s < 1 for E = beta x^n + e; for alpha = 0, s = 0 is Ei, found before, and s = 1/2 an error function."""
     x = RatFunc(beta.field.poly([0, 1]))
     one = beta.field.poly([1])
-    known = () if alpha else (0, Fraction(1, 2))
     for m in range(-abs(n) - 2 - int(alpha), abs(n) + 2 - int(alpha)):
         s = (m + alpha + 1) / n
-        if 0 <= s < 1 and s not in known:
+        if 0 < s < 1:
             yield GammaTerm(one, x, beta, e, n, m)
 
 
