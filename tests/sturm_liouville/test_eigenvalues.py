@@ -382,11 +382,13 @@ def test_rational_functions_need_no_germs():
 
 
 def test_which_of_two_points_is_below_the_other():
-    """Equal numbers in different forms, too: sqrt(2) + sqrt(3) and sqrt(5 + 2 sqrt(6))."""
+    """Equal numbers in different forms, too: sqrt(2) + sqrt(3) and sqrt(5 + 2 sqrt(6)), and by Machin's formula."""
     s, t = sympy.sqrt(2) + sympy.sqrt(3), sympy.sqrt(5 + 2 * sympy.sqrt(6))
     a, p = sympy.Symbol("a", real=True), sympy.Symbol("p", positive=True)
-    assert not _is_below(s, t)
-    assert not _is_below(t, s)
+    fifth, other = sympy.atan(sympy.Rational(1, 5)), sympy.atan(sympy.Rational(1, 239))
+    for one, same in ((s, t), (4 * fifth - other, sympy.pi / 4)):
+        assert not _is_below(one, same)
+        assert not _is_below(same, one)
     for low, high in ((sympy.pi, sympy.Rational(22, 7)), (-sympy.oo, t), (s, sympy.oo), (a, a + p)):
         assert _is_below(low, high)
         assert not _is_below(high, low)
