@@ -54,12 +54,8 @@ collect_ignore = (
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the profiles, but not in a process that gives the tests to others: they would wait for the import, 1 s.
-
-    Those don't rewrite assertions, half of the time of a first collection in each: a test that fails is run alone, which does.
-    """
+    """Register the profiles, but not in a process that gives the tests to others: they would wait for the import, 1 s."""
     if config.getoption("numprocesses", None):
-        os.environ["PYTEST_ADDOPTS"] = f"--assert=plain {os.environ.get('PYTEST_ADDOPTS', '')}"
         return
     from hypothesis import HealthCheck, Phase, settings
 
