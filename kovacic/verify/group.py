@@ -179,6 +179,5 @@ def _on_curve_of_positive_genus(riccati: RiccatiPolynomial, claim: GroupClaim, r
             return has_holomorphic_rest(H, claim.function)
         # different orders of the divisor of l eta modulo two primes of good reduction; a finite one is the same modulo all
         are_different = len({k for _, k in claim.orders}) > 1
-
         return are_different and all(order_holds(H, residues, p, k) for p, k in claim.orders)
     return None if claim.family == "imprimitive" else False
