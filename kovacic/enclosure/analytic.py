@@ -6,9 +6,9 @@ become smaller towards one; the way is refused once they would be as small as 2^
 
 If the coefficients have values at an end of the way but aren't analytic there, as sqrt(x) at 0, a short piece next to it is
 bounded: with |b| <= B, |c| <= C and |f| <= F on a piece of length r, for any s > 0 the vector (y, s y') has the derivative
-(s y'/s, -b (s y') - s c y + s f), and with K >= max(1/s, B + s C) it changes by at most
+(s y'/s, -b (s y') - s c y + s f), and where 1/s >= B + s C it changes by at most
 
-    (exp(K r) - 1) (max(|y|, s |y'|) + s F/K)    [Gronwall].                                                               (1)
+    (exp(r/s) - 1) (max(|y|, s |y'|) + s^2 F)    [Gronwall].                                                               (1)
 
 Two kinds of equations have steps over any distance.  Constant coefficients, and a right-hand side of powers, exponentials and
 waves: one step to every target.  For f = sum P(x) exp(alpha x) the functions P^(k)(x) exp(alpha x) form a vector g with

@@ -84,7 +84,7 @@ def raise_precision(
         except LimitExceeded as limit:
             if previous is None:
                 raise
-            return _explained(previous, str(limit))
+            return _explained(previous, exact=exact, limit=str(limit))
         is_stalled = False
         if values is not None:
             if not _lacking(values):
@@ -99,7 +99,7 @@ def raise_precision(
         if bits >= ceiling or ceiling > most or is_stalled:
             if values is None:
                 raise LimitExceeded("no finite enclosure was found up to the highest precision", limit="digits")
-            return _explained(values)
+            return _explained(values, exact=exact)
         previous = values or previous
         more = 16 + (bits if values is None else max(value.missing for value in values))
         if closed is None:  # by multiples of 64, so that points of other calls share the expansions
@@ -135,9 +135,9 @@ def _is_stalled(previous: Values, values: Values) -> bool:
     return all(2 * arb(value.y.rad) > arb(before.y.rad) for before, value in lacking)
 
 
-def _explained(values: Values, limit: str | None = None) -> Values:
+def _explained(values: Values, *, exact: bool, limit: str | None = None) -> Values:
     """Those that lack digits get a note, which is the limit or a reason that their balls give."""
-    return tuple(v if v.missing == 0 else replace(v, note=limit or _reason(v)) for v in values)
+    return tuple(v if v.missing == 0 else replace(v, note=limit or _reason(v, exact=exact)) for v in values)
 
 
 def _missing_bits(y: acb, digits: int, prec: int, *, doubled: bool) -> int:
@@ -172,11 +172,11 @@ def _growth(result: PointValue) -> int:
     return _lost(result.state[0], result.route.bits) if result.y.contains_zero() else 0
 
 
-def _reason(result: PointValue) -> str:
-    """Why digits are missing, as far as the ball tells."""
+def _reason(result: PointValue, *, exact: bool) -> str:
+    """Why digits are missing, as far as the ball tells; only where all numbers are `exact` is it wide because others grow."""
     if result.y.contains_zero():
         known = arb(result.y.rad).mid().str(2, radius=False)
-        growth = _growth(result)
+        growth = _growth(result) if exact else 0
         reason = (
             f"the value can't be told from zero (|y| is at most about {known}): no relative accuracy was reached"
             f" with {result.route.bits} bits"

@@ -327,15 +327,17 @@ def spread(values: Sequence[acb], length: arb, state: State, *, real: bool) -> S
     """The state anywhere on a piece of this length from that at a point of it; `values` are b, c and f of
     y'' + b y' + c y = f on the piece.
 
-    For s > 0 and K >= max(1/s, |b| + s |c|), (y, s y') changes by at most (exp(K r) - 1) (max(|y|, s |y'|) + s |f|/K)
-    [equation (1) of `kovacic.enclosure.analytic`].
+    For 1/s >= |b| + s |c|, (y, s y') changes by at most (exp(r/s) - 1) (max(|y|, s |y'|) + s^2 |f|) [equation (1) of
+    `kovacic.enclosure.analytic`].
     """
     b, c, f = values
-    steepness = (abs(b) + abs(c).upper().sqrt()).upper()  # for which s b and s^2 c are about 1 at most
-    s = (1 / steepness.max(arb((1, -64)))).mid()
-    K = (1 / s).max(abs(b) + s * abs(c))
-    largest = abs(state[0]).max(s * abs(state[1])) + s * abs(f) / K
-    change = (K * length).expm1() * largest
+    tiny = arb((1, -64))
+    steepness = (abs(b) + abs(c).upper().sqrt()).upper()  # then s b and s^2 c are 1 at most
+    # Nor is s f above about |y'|, |y|/s and f times the length.
+    slope = (abs(f) * abs(state[0])).upper().sqrt().max(abs(state[1])).max(abs(f) * length).upper()
+    s = (1 / steepness.max(abs(f) / (slope + tiny)).max(tiny)).lower()
+    largest = abs(state[0]).max(s * abs(state[1])) + s**2 * abs(f)
+    change = (length / s).expm1() * largest
     return state[0] + around_zero(change.upper(), real=real), state[1] + around_zero((change / s).upper(), real=real)
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 import random
 import re
+from collections.abc import Callable
 from fractions import Fraction
+from math import cos, cosh, exp, sin, sinh
 from typing import Any
 
 import flint
@@ -12,6 +15,7 @@ import pytest
 from build import ball_to_flint, parametrize
 from flint import arb, fmpq
 
+import kovacic
 from kovacic import evaluate
 
 # n is a parameter; the points are between -3 and 3, or between 1 and 3 where 0 is singular
@@ -63,3 +67,48 @@ def encloses(seed: int) -> None:
 @pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
 def test_every_number_in_the_balls_is_served(seed: int) -> None:
     encloses(seed)
+
+
+Function = Callable[[float], float]
+
+
+@pytest.mark.filterwarnings("ignore::kovacic.enclosure.evaluate.AccuracyWarning")
+@pytest.mark.parametrize(
+    ("equation", "y", "dy", "most"),
+    [
+        ("y'' = 14", lambda x: 7 * x**2 + 3 * x, lambda x: 14 * x + 3, (2.01, 2.08)),
+        ("y'' = 14", lambda x: 7 * x**2, lambda x: 14 * x, (3.5, 1.8)),
+        ("y'' = 14", lambda x: 7 * x**2 + 5, lambda x: 14 * x, (156, 2.1)),
+        ("y'' = 400*y", lambda x: 3 * cosh(20 * x), lambda x: 60 * sinh(20 * x), (7.5, 1.2)),
+        ("y'' = 400*y", lambda x: 0.15 * sinh(20 * x), lambda x: 3 * cosh(20 * x), (1.2, 7.5)),
+        (
+            "y'' + 30*y' = 60",
+            lambda x: 2 * x + 1.1 - exp(-30 * x) / 10,
+            lambda x: 2 + 3 * exp(-30 * x),
+            (7.1, 10.7),
+        ),
+        (
+            "y'' + y = 500",
+            lambda x: 500 - 500 * cos(x) + 7 * sin(x),
+            lambda x: 500 * sin(x) + 7 * cos(x),
+            (2.4, 3.3),
+        ),
+    ],
+)
+def test_a_ball_around_a_point_gives_few_values_beyond_those_in_it(
+    equation: str, y: Function, dy: Function, most: tuple[float, float]
+) -> None:
+    """The radius is at most `most` times what the function changes by, also where only the right-hand side changes it."""
+    r = 1 / 64
+    found = evaluate(equation, arb(0, r), x0=0, y0=y(0), dy0=dy(0), derivative=True)
+    for ball, f, times in zip(found, (y, dy), most, strict=True):
+        assert ball.contains(f(r))
+        assert ball.contains(f(-r))
+        assert float(ball.radius) <= times * max(abs(f(r) - f(0)), abs(f(-r) - f(0)))
+
+
+def test_a_real_ball_has_complex_values_where_the_coefficients_are_complex() -> None:
+    with pytest.warns(kovacic.AccuracyWarning):
+        found = evaluate("y'' = 200*I*y", arb(0, 0.125), x0=0, y0=3, dy0=0)
+    assert not found.real
+    assert found.contains(3 * cmath.cosh((10 + 10j) / 8))

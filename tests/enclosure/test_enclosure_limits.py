@@ -83,6 +83,21 @@ def test_digits_lost_by_a_recessive_start_are_had_or_the_reason_is_said_at_once(
     assert state.contains_zero()
 
 
+@pytest.mark.parametrize(
+    ("x", "dy0", "limits", "said"),
+    [
+        (2000, -1, Limits(digits=15), r"\d bits: other solutions grow to about 10\^85[78] on the way"),
+        (flint.arb(0, 1.5), 0.25, None, r"with \d+ bits$"),  # y(-1.5) > 0 > y(1.5) or the other way round
+        (flint.arb(0, 1.5), 0.25, Limits(digits=200), r"with \d+ bits$"),
+    ],
+)
+def test_only_growth_is_called_growth(x: Any, dy0: Any, limits: Limits | None, said: str) -> None:
+    """A ball that is wide because a number of the user is one says nothing of other solutions."""
+    digits = 15 if limits is None else limits.digits
+    with pytest.warns(AccuracyWarning, match=said):
+        evaluate("1", x, x0=0, y0=int(dy0 < 0), dy0=dy0, digits=digits, limits=limits)
+
+
 @cache
 def hermite() -> kovacic.Solution:
     return kovacic.solve("x^2-401")

@@ -328,3 +328,14 @@ def test_the_tail_is_below_its_bound(seed: int) -> None:
             float((a - b).abs_upper()) < 2.0**-20 * max(1.0, float(b.abs_upper()))
             for a, b in zip(few, many, strict=True)
         )
+
+
+@pytest.mark.parametrize("place", [ExactPoint(0), None], ids=["0", "infinity"])
+def test_the_junction_is_the_target_itself_or_on_the_way_to_it(place: ExactPoint | None) -> None:
+    point = Singular.at(as_problem("3/(x^2*(x - 2))"), place)
+    for length in (fmpq(1, 2**40), fmpq(1, 70), fmpq(5, 3), fmpq(10**6, 7)):
+        towards = ExactPoint(Fraction(3), Fraction(4)).scaled(length if place else 1 / length)
+        last, bound = frobenius.junction(point, towards, 60)
+        here, there = (abs(point.offset(x)) for x in (last, towards))
+        assert here < bound.rho
+        assert last == towards or here < 0.51 * there

@@ -411,3 +411,16 @@ def test_functions_that_are_nearly_dependent_at_the_start(
     assert functions.route.runs <= 2
     assert default.overlaps(functions)
     assert functions.digits >= digits
+
+
+def test_a_known_solution_of_high_degree_serves_where_none_would_be_sought() -> None:
+    """Off the real axis its targets are dearer: for thirty of them Taylor's method is cheaper, for one it isn't."""
+    equation = "1 + 1640/x^2"  # a polynomial of degree 40
+    start: dict[str, Any] = {"x0": 1, "y0": 1, "dy0": 0}
+    solution = kovacic.solve(equation)
+    known, sought = solution.at(2, **start), evaluate(equation, 2, **start)
+    assert (known.route.method, sought.route.method) == ("closed form", "taylor")
+    assert known.overlaps(sought)
+    for count, method in ((1, "closed form"), (30, "taylor")):
+        points = [complex(1 + k / 128, k / 256) for k in range(1, count + 1)]
+        assert solution.at(points, **start)[-1].route.method == method

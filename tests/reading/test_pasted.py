@@ -911,3 +911,9 @@ def test_plain_texts_are_read_as_all_others() -> None:
         assert paste.is_equation == ("=" in text or "'" in text)
         assert (paste.notes, paste.variable, len(paste.equation_scans)) == ([], None, 1), text
     assert plain > 1000
+
+
+def test_evaluate_warns_of_what_was_guessed() -> None:
+    with pytest.warns(UserWarning, match=r"a root is written \^\(1/2\)"):
+        value = kovacic.evaluate("a^1/2*x^2", 2, x0=1, y0=1, dy0=0, params={"a": 4})
+    assert value.overlaps(kovacic.evaluate("2*x^2", 2, x0=1, y0=1, dy0=0))

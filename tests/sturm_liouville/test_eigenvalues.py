@@ -371,6 +371,8 @@ def test_a_germ_has_its_limit_at_zero():
     t, s = sympy.symbols("t s")
     assert germ(sympy.sin(t), t, 1).subs(t, 0) == 1
     assert germ(1 - sympy.cos(t), t, 2).subs(t, 0) == sympy.Rational(1, 2)
+    assert germ(sympy.sin(t), t, 1).subs(t, s) == germ(sympy.sin(s), s, 1)
+    assert germ(sympy.sin(s * t), t, 1).subs(s, 0) == germ(0, t, 1)
     assert germ(sympy.sin(s * t), t, 1).subs(s, 2) == germ(sympy.sin(2 * t), t, 1)
 
 
