@@ -133,7 +133,7 @@ def scan(
         status = _answer_all(items, noted, output, count=lambda: prod(map(len, grids)), done=done, **run)
     if picture is not None:
         with options.waiting("drawing"):
-            draw_map(expression, (grids[0], grids[1]), labels, picture)
+            draw_map(expression.strip(), (grids[0], grids[1]), labels, picture)
     return status
 
 
