@@ -106,7 +106,7 @@ def test_levels_are_counted_on_a_terminal(monkeypatch: pytest.MonkeyPatch, capsy
     assert re.search(r"levels.*2/3", shown.err)
     taken.clear()
     monkeypatch.setenv("TERM", "dumb")
-    assert run(command[:-1] + ["2"]) == 0
+    assert run([*command[:-1], "2"]) == 0
     assert capsys.readouterr() == ("[0, 1]\n", "")
 
 
