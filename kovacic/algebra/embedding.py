@@ -21,7 +21,7 @@ from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.modular import integers_by_size
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.limits import check_duration, may_be_late
 
 #: Seconds that FLINT takes at least, over the square of the degree; and at most, for each bit of the coefficients besides,
@@ -152,10 +152,10 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     tower = AlgebraicField(old, factor)
     n = tower.absolute_degree
     shift, powers = _primitive_element(tower, old)
-    columns = [powers[n], _padded_coordinates(tower.embed(old.generator), n), _padded_coordinates(tower.generator, n)]
+    columns = [powers[n], padded_coordinates(tower.embed(old.generator), n), padded_coordinates(tower.generator, n)]
     # The coordinates of theta'^n, theta and c with respect to the powers 1, theta', ..., theta'^(n-1).
     solved = _matrix(powers[:n]).solve(_matrix(columns))
-    power, theta, c = ([Fraction(int(q.p), int(q.q)) for q in column] for column in zip(*solved.tolist(), strict=True))
+    power, theta, c = (list(map(to_fraction, column)) for column in zip(*solved.tolist(), strict=True))
     modulus = QQ.poly([*(-q for q in power), 1])
     with working_precision(_EMBEDDING_BITS):
         position = _nearest_root(modulus, target + _complex(old.approximation) * shift)
@@ -174,7 +174,7 @@ def _primitive_element(tower: AlgebraicField, old: AlgebraicField) -> tuple[int,
         powers = [tower.poly([1])]
         for _ in range(n):
             powers.append(powers[-1] * primitive)
-        rows = [_padded_coordinates(power, n) for power in powers]
+        rows = [padded_coordinates(power, n) for power in powers]
         if _matrix(rows[:n]).det() != 0:
             return shift, rows
     raise AssertionError("there are infinitely many integers")
@@ -193,8 +193,9 @@ def substituted(constant: Poly, theta: Poly) -> Poly:
     return total
 
 
-def _padded_coordinates(constant: Poly, n: int) -> list[Any]:
-    coordinates = list(constant.rational_coefficients())
+def padded_coordinates(polynomial: Poly, n: int) -> list[Any]:
+    """The rational coordinates of all coefficients, with zeros up to n of them."""
+    coordinates = list(polynomial.rational_coefficients())
     return coordinates + [fmpq(0)] * (n - len(coordinates))
 
 
@@ -223,7 +224,7 @@ def _nearest_root(modulus: Poly, target: Any) -> tuple[Fraction, Fraction]:
     """The root of a rational polynomial that lies nearest to the target."""
     with working_precision(_EMBEDDING_BITS):
         nearest = _roots_by_distance(modulus, target)[0]
-        return _fraction(nearest.real), _fraction(nearest.imag)
+        return to_fraction(nearest.real.mid().fmpq()), to_fraction(nearest.imag.mid().fmpq())
 
 
 def root_near(polynomial: fmpz_poly, target: Any) -> Any:
@@ -239,8 +240,3 @@ def _roots_by_distance(modulus: Poly, target: Any) -> list[Any]:
 
 def _by_distance(polynomial: fmpz_poly, target: Any) -> list[Any]:
     return sorted((root for root, _ in complex_zeros(polynomial)), key=lambda root: float(abs(root - target).mid()))
-
-
-def _fraction(value: Any) -> Fraction:
-    mantissa, exponent = value.mid().man_exp()
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

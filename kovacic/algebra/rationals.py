@@ -45,7 +45,7 @@ def to_fmpq(value: Scalar) -> Any:
 
 
 def to_fraction(value: Any) -> Fraction:
-    """The `Fraction` equal to a flint rational."""
+    """The `Fraction` equal to a rational number of FLINT or SymPy."""
     return Fraction(int(value.p), int(value.q))
 
 

@@ -6,12 +6,12 @@ A parameter with a bound, l >= 1/2, is written 1/2 + s with s >= 0, so that SymP
 from __future__ import annotations
 
 from collections.abc import Iterable
-from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import sympy
 
+from kovacic.algebra.rationals import to_fraction
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.parametric.assumptions import Assumptions, Known
 
@@ -106,7 +106,7 @@ class Signs:
 def is_admitted(known: Known, value: Any) -> bool:
     """True unless a real number contradicts the assumptions."""
     if value.is_Rational:
-        return known.admits_number(Fraction(int(value.p), int(value.q)))
+        return known.admits_number(to_fraction(value))
     return known.rational is not True and known.admits_ball(BallEvaluator({})(value))
 
 

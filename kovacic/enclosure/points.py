@@ -187,8 +187,7 @@ def middle(number: Number) -> ExactPoint:
 
 def midpoint(ball: acb) -> ExactPoint:
     """The midpoint of a finite ball."""
-    parts = (part.mid().man_exp() for part in (ball.real, ball.imag))
-    return ExactPoint(*(fmpq(mantissa) * power_of_two(int(e)) for mantissa, e in parts))
+    return ExactPoint(ball.real.mid().fmpq(), ball.imag.mid().fmpq())
 
 
 def are_real(values: Iterable[Any]) -> bool:

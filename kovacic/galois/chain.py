@@ -29,11 +29,12 @@ from typing import Any, NamedTuple
 
 from flint import fmpq_mat, fmpz_mat
 
+from kovacic.algebra.embedding import padded_coordinates
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.modular import integers_by_size
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.decision import CurveFunction, Piece
 from kovacic.engine.places import rational_square_root
 from kovacic.limits import check_time
@@ -236,8 +237,8 @@ def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple
     if field.ground != QQ:
         return field.ground.cleared(*first)
     basis = [field.ground.cleared(a * c, b * c) for a, b in (first, second) for c in _power_basis(field)]
-    lengths = [1 + max(pair[i].degree for pair in basis) for i in (0, 1)]
-    M = fmpz_mat([[*_integral_coordinates(a, lengths[0]), *_integral_coordinates(b, lengths[1])] for a, b in basis])
+    length = field.absolute_degree * (1 + max(max(a.degree, b.degree) for a, b in basis))
+    M = fmpz_mat([[int(c.p) for part in pair for c in padded_coordinates(part, length)] for pair in basis])
     size = len(basis)
     columns = M.transpose().hnf()
     T = fmpz_mat([[columns[j, i] for j in range(size)] for i in range(size)])
@@ -248,7 +249,7 @@ def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple
     factors = (fmpq_mat(change) * fmpq_mat(T).inv()).tolist()[shortest]
     a = b = first[0] * 0
     for factor, pair in zip(factors, basis, strict=True):
-        scale = Fraction(int(factor.p), int(factor.q))
+        scale = to_fraction(factor)
         a = a + pair[0] * scale
         b = b + pair[1] * scale
     return a, b
@@ -260,12 +261,3 @@ def _power_basis(field: Field) -> list[Poly]:
         return [field.poly([1])]
     below = [field.embed(c) for c in _power_basis(field.base)]
     return [c * field.generator**k for k in range(field.dimension) for c in below]
-
-
-def _integral_coordinates(polynomial: Poly, length: int) -> list[int]:
-    """The integral coordinates of the first coefficients."""
-    result: list[int] = []
-    for leaf in polynomial.leaves():
-        known = [int(c.p) for c in leaf.rational_coefficients()]
-        result += known + [0] * (length - len(known))
-    return result

@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import zip_longest
 from math import gcd, lcm, prod
 from typing import Any, NamedTuple
 
@@ -289,10 +290,8 @@ def _lattice_forms(
 
 def _rational_coordinates(pair: Sequence[Any]) -> list[tuple[Fraction, Fraction]]:
     """The rational coordinates of two polynomials, side by side; that of the constant 1 comes first."""
-    columns = [[to_fraction(c) for c in part.rational_coefficients()] for part in pair]
-    length = max(map(len, columns))
-    first, second = ([*column, *[Fraction(0)] * (length - len(column))] for column in columns)
-    return list(zip(first, second, strict=True))
+    first, second = (map(to_fraction, part.rational_coefficients()) for part in pair)
+    return list(zip_longest(first, second, fillvalue=Fraction(0)))
 
 
 def _torus(vanishing: Iterable[tuple[Fraction, Fraction]], integral: Sequence[tuple[Fraction, Fraction]]) -> Torus:

@@ -188,7 +188,7 @@ def _is_wrong_at(claim: SolutionClaim, start: Expr | None) -> bool:
         whole = (_antiderivatives(claim.y, x), *claim.coefficients)
         for point in points:
             y, *coefficients = (on_piece(part, x, point) for part in whole)
-            if is_wrong(y, coefficients, acb(fmpq(int(point.p), int(point.q)))):
+            if is_wrong(y, coefficients, ball_of(point)):
                 return True
         return any(_is_wrong_across(claim, *sides) for sides in zip(breaks, points, points[1:], strict=False))
 

@@ -12,6 +12,7 @@ import sympy
 from sympy import Symbol
 
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.rationals import to_fraction
 from kovacic.closed_form.check import are_independent
 from kovacic.closed_form.real_pair import is_turned, pair_in_x
 from kovacic.closed_form.way_back import in_x, solution_in_x
@@ -151,7 +152,7 @@ def _real_places(question: Question) -> tuple[Fraction, ...]:
     if question.conditions and equation.change is None:
         start = start_of(question, limit_points(question))
         if start.is_Rational:
-            return (Fraction(int(start.p), int(start.q)),)
+            return (to_fraction(start),)
     return real_values(equation)
 
 

@@ -25,7 +25,7 @@ from kovacic.algebra.embedding import enclosure
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.errors import InputError
 from kovacic.limits import MOST_TRIALS
 from kovacic.parametric.claims import (
@@ -235,7 +235,7 @@ def _stated_bound(word: str) -> Bound:
         raise InputError(f"{match[2]!r} isn't a real number", hint="bounds are numbers, such as 1/2 and sqrt(2)")
     with working_precision(COMPARED_BITS):
         end = (ball.real.lower() if sign > 0 else ball.real.upper()).fmpq()
-    return Bound(sign, Fraction(int(end.p), int(end.q)), strict=True)
+    return Bound(sign, to_fraction(end), strict=True)
 
 
 #: Words that stand for others, or for nothing usable.  A natural number may be 0 here: what holds then also holds from 1 on.

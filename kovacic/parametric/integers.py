@@ -66,6 +66,7 @@ from kovacic.parametric.claims import (
 from kovacic.parametric.formulas import shortest_form
 from kovacic.parametric.restriction import everywhere, with_free_constant
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, either, reduced_statement
+from kovacic.writing.formula import text_of_words
 
 
 class Stratum(NamedTuple):
@@ -138,7 +139,7 @@ def _spectrum(equation: FunctionPoly, numbers: Classes, letter: str, setting: Se
     for k, (solved, strata) in enumerate(energies or known):
         for family in _integer_choices(equation, solved, numbers):
             text = shortest_form(family.value, family.letter)
-            condition = prose.text_of_words(prose.phrase(prose.numbers_of(family)))
+            condition = text_of_words(prose.phrase(prose.numbers_of(family)))
             # Weights chosen by eye: a formula counts more than words, and both less than a later parameter or a stratum.
             cost = 10 * k + 20 * len(strata) + 3 * len(text) + 2 * len(condition)
             # Of n and -n the one with f(1) = 1, if there is one: n + k*n*(n - 1)/2, as Yoshida and Morales & Ramis write it.

@@ -64,10 +64,6 @@ def latex_of_claim(claim: Claim) -> str:
     return "".join(parts).strip()
 
 
-def text_of_words(words: Words) -> str:
-    return "".join(part.text if isinstance(part, Math) else part for part in words)
-
-
 @lru_cache(maxsize=1024)
 def sentence(claim: Claim) -> Words:
     """The claim in words and formulas."""

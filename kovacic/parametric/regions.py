@@ -42,6 +42,7 @@ from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
 from kovacic.parametric.solutions import Later, PolynomialSolution, SolutionsByDegree
 from kovacic.parametric.statements import ALWAYS, Both, Either, Setting, Statement, Vanishes, all_of, either
+from kovacic.writing.formula import text_of_words
 
 
 class Limited(str):
@@ -60,7 +61,7 @@ class Theory(str):
     sources: tuple[str, ...]
 
     def __new__(cls, literal: str, *sources: str) -> Theory:
-        self = super().__new__(cls, prose.text_of_words(prose.phrase(literal)))
+        self = super().__new__(cls, text_of_words(prose.phrase(literal)))
         self.literal = literal
         self.sources = sources
         return self
@@ -109,7 +110,7 @@ class RegionVerdict:
     @property
     def group(self) -> str:
         """The family of the Galois group."""
-        said = prose.text_of_words(self.group_in_words)
+        said = text_of_words(self.group_in_words)
         adjective = _ADJECTIVES.get(self.structure) if self.known and self.family is None else None
         return f"{adjective}: {said}" if adjective else said
 
@@ -274,7 +275,7 @@ class ParameterRegion:
             for d in range(self.shown_degree + 1):
                 values = statement.values(d)
                 said = [
-                    value + f" where {prose.text_of_words(places)}" * (len(values) > 1 and len(places) > 0)
+                    value + f" where {text_of_words(places)}" * (len(values) > 1 and len(places) > 0)
                     for value, places in values.items()
                 ]
                 text = "; ".join(said)
@@ -309,7 +310,7 @@ class ParameterRegion:
         """The family of the Galois group, in words."""
         if self.defined:
             return self.verdict.group
-        return prose.text_of_words(prose.phrase(self.verdict.family or "S isn't defined"))
+        return text_of_words(prose.phrase(self.verdict.family or "S isn't defined"))
 
     @property
     def said(self) -> str:

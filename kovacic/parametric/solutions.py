@@ -26,7 +26,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.poly import Field, Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.recurrence import descended
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.product import product as product_of_powers
@@ -57,7 +57,7 @@ from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
 from kovacic.reading.change_of_variable import is_in_power, user_variable
 from kovacic.reading.read import read_input
-from kovacic.writing.formula import caret
+from kovacic.writing.formula import caret, text_of_words
 
 
 class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
@@ -155,7 +155,7 @@ class PolynomialSolution:
         exclusion = self.exclusion(letter)
         if exclusion and not self.degree.is_Symbol:
             degree = f"{letter} = {degree}"
-        where = self.where or f"{degree} is a natural number{prose.text_of_words(exclusion)}"
+        where = self.where or f"{degree} is a natural number{text_of_words(exclusion)}"
         return f"y = {caret(as_text(self.y))} where {where}"
 
     def exclusion(self, d: str) -> Words:
@@ -507,7 +507,7 @@ def _progressions(degree: Any, n: Any, family: IntegerFamily) -> Iterator[Progre
     linear = degree.as_poly(n)
     if linear is None or linear.degree() != 1 or not linear.domain.is_QQ | linear.domain.is_ZZ:
         return
-    a, b = (Fraction(int(number.p), int(number.q)) for number in linear.all_coeffs())
+    a, b = map(to_fraction, linear.all_coeffs())
     # n = (d - b)/a for d = 0, 1, ... is in the same class again after `period` steps.
     period = (family.numbers.modulus * abs(a)).numerator
     for d in range(period):

@@ -27,6 +27,7 @@ from kovacic.parametric.claims import (
     irreducible_factors,
     on_linear_zeros,
 )
+from kovacic.writing.formula import text_of_words
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ class Statement(Claim):
         return (self,)
 
     def text(self) -> str:
-        return prose.text_of_words(prose.sentence(self.claim))
+        return text_of_words(prose.sentence(self.claim))
 
     def latex(self) -> str:
         """Without dollar signs."""

@@ -16,7 +16,7 @@ from flint import acb, arb, fmpq
 from kovacic.algebra.embedding import adjoined_root, principal_root, refined_root, substituted, vanishing_factor
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly
 from kovacic.algebra.poly import Field, Poly
-from kovacic.algebra.rationals import QQ, square_part
+from kovacic.algebra.rationals import QQ, square_part, to_fraction
 from kovacic.equation import ENERGY, EULER
 from kovacic.errors import LimitExceeded, NotRational
 from kovacic.limits import DEFAULT_LIMITS, MOST_TRIALS, Limits, demand
@@ -109,7 +109,7 @@ class Constants:
             minimal = minimal or sympy.minimal_polynomial(exact, sympy.Dummy(), polys=True)
         except NotImplementedError:
             return None
-        coefficients = [Fraction(int(c.p), int(c.q)) for c in reversed(minimal.all_coeffs())]
+        coefficients = [*map(to_fraction, reversed(minimal.all_coeffs()))]
         real, imaginary = sympy.N(exact).as_real_imag()
         return self.root(QQ.poly(coefficients), acb(arb(str(real)), arb(str(imaginary))))
 

@@ -21,7 +21,7 @@ from sympy.polys.polytools import parallel_poly_from_expr
 from kovacic.algebra.extension import root_of_constant
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
-from kovacic.algebra.rationals import QQ
+from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
 from kovacic.closed_form.structure import logarithmic_derivative
@@ -248,7 +248,7 @@ class Writer:
         parts = [sympy.Poly(part, x) for part in shared.as_numer_denom()]
         if total.field == QQ and all(c.is_Rational for part in parts for c in part.all_coeffs()):
             for part, sign in zip(parts, (1, -1), strict=True):
-                p = QQ.poly([Fraction(int(c.p), int(c.q)) for c in reversed(part.all_coeffs())])
+                p = QQ.poly([*map(to_fraction, reversed(part.all_coeffs()))])
                 total = total + logarithmic_derivative(p) * sign
             return Mul(display(product(total), atoms), *before.others, bracket), None
         powers = Mul(display(product(total), atoms), *before.others)

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 import sympy
 from flint import acb, arb, fmpq
 
+from kovacic.algebra.rationals import to_fraction
 from kovacic.closed_form.jets import BallEvaluator
 from kovacic.closed_form.steps import JUMPING, in_steps, jump_place, jumps_in, on_piece, split_at_jumps
 from kovacic.errors import InputError
@@ -197,8 +198,7 @@ def point_between(low: Expr, high: Expr) -> Expr:
 
 def dyadic_midpoint(value: Any) -> Expr:
     """The midpoint of a ball, exactly."""
-    mantissa, exponent = value.mid().man_exp()
-    return sympy.Integer(int(mantissa)) * sympy.Integer(2) ** int(exponent)
+    return sympy.Rational(to_fraction(value.mid().fmpq()))
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:

@@ -17,6 +17,7 @@ from flint import arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.ball import Ball, finite_ball
+from kovacic.enclosure.frame import upper_exponent
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
@@ -86,7 +87,7 @@ class Searcher:
     def _rounded(self, E: Any, unit: Any) -> Any:
         """A dyadic number with few digits, within 2^-8 of the unit."""
         with working_precision(2 * self.bits + 200):
-            power = arb(2) ** (_log2(unit) - 8)
+            power = arb(2) ** (upper_exponent(unit) - 9)
             return ((E / power).floor() * power).mid()
 
     def radius(self, a: Count, b: Count, digits: int) -> Any:
@@ -172,12 +173,6 @@ def _weighted(other: Any, new: Any, old: Any) -> Any:
     """The value at the end that stays, made smaller [Anderson and Bjorck]: else regula falsi would keep that end for long."""
     factor = 1 - new / old
     return other * (factor if factor > 0 else arb(1) / 2)
-
-
-def _log2(value: Any) -> int:
-    """The exponent e with 2^e <= value < 2^(e+1), for the midpoint of a positive number."""
-    mantissa, exponent = value.mid().man_exp()
-    return int(mantissa).bit_length() - 1 + int(exponent)
 
 
 def _ball(low: Any, high: Any) -> Ball:
@@ -304,7 +299,7 @@ class Eigenproblem:
 
     def _short(self, E: Any) -> Any:
         """A dyadic number near E, with few digits."""
-        unit = arb(2) ** (_log2(abs(E) + self.scale / 2**20) - 30)
+        unit = arb(2) ** (upper_exponent(abs(E) + self.scale / 2**20) - 31)
         return ((E / unit).floor() * unit).mid()
 
     def _rough(self, E: Any, low: Any, *, high: bool) -> Count:

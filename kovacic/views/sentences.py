@@ -19,7 +19,7 @@ from kovacic.decision import (
 )
 from kovacic.equation import Parsed
 from kovacic.numbers.numerals import as_text, in_a_message
-from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy, separated
+from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy, separated, text_of_words
 
 #: Verdicts.
 SOLVABLE = "Liouvillian solutions exist"
@@ -70,11 +70,6 @@ def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | M
     yield from (f"degree {highest}, with powers of ", t, f" down to {lowest} in steps of {step}")
 
 
-def as_plain_text(parts: Iterable[str | Math]) -> str:
-    """A sentence as text."""
-    return "".join(part.text if isinstance(part, Math) else part for part in parts)
-
-
 def omega_lines(answer: Answer) -> list[str]:
     """omega, or its polynomial, and its constants, as text."""
     riccati, series, constants = answer.riccati, answer.series, answer.constants
@@ -84,7 +79,7 @@ def omega_lines(answer: Answer) -> list[str]:
     if roots is not None and omega.text == formulas.symbol:
         return [f"omega = {roots}"]
     if series is not None:
-        theta, powers = formulas.math(series.theta).text, as_plain_text(powers_in(series, formulas))
+        theta, powers = formulas.math(series.theta).text, text_of_words(powers_in(series, formulas))
         lines = [f"omega = theta + P'/P with theta = {theta} and P of {powers}"]
     elif riccati is None or riccati.degree == 1:
         lines = [f"omega = {omega.text}"]

@@ -15,7 +15,6 @@ from kovacic.views.sentences import (
     NOT_DECIDED,
     SOLVABLE,
     UNSOLVABLE,
-    as_plain_text,
     equation_of,
     formulas_of,
     normal_form_of,
@@ -27,7 +26,7 @@ from kovacic.views.sentences import (
     verdict_in_words,
 )
 from kovacic.writing.escaped import in_one_line
-from kovacic.writing.formula import Math
+from kovacic.writing.formula import Math, text_of_words
 
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
@@ -135,7 +134,7 @@ def _lines_of_exclusions(answer: Answer) -> Iterator[str]:
     formulas = formulas_of(answer)
     grouped: dict[tuple[int, str], list[str]] = {}
     for exclusion in answer.proof:
-        reasons = "; ".join(as_plain_text(reason(evidence, formulas)) for evidence in exclusion.evidence)
+        reasons = "; ".join(text_of_words(reason(evidence, formulas)) for evidence in exclusion.evidence)
         grouped.setdefault((exclusion.structure.case, reasons), []).append(exclusion.structure.value)
     for (case, reasons), structures in grouped.items():
         which = f" ({', '.join(structures)})" if case == 3 else ""

@@ -100,6 +100,11 @@ def separated(separator: str, parts: Iterable[str | Math]) -> list[str | Math]:
     return [piece for part in parts for piece in (separator, part)][1:]
 
 
+def text_of_words(words: Iterable[str | Math]) -> str:
+    """A sentence as text."""
+    return "".join(part.text if isinstance(part, Math) else part for part in words)
+
+
 @dataclass(frozen=True)
 class Formulas:
     """The formulas of one answer: its variable is called `variable`, and `field` is that of the coefficients of S."""

@@ -58,6 +58,7 @@ from kovacic.parametric.search import search_special_values
 from kovacic.parametric.solutions import PolynomialSolution, Progression, derivative, jacobi, natural_value
 from kovacic.parametric.statements import ALWAYS, Setting, Statement, Vanishes, all_of
 from kovacic.reading.read import read_input
+from kovacic.writing.formula import text_of_words
 
 F = Fraction
 
@@ -237,7 +238,7 @@ def test_symmetric_families_are_written_once(functions: list, total: int, expect
 def degrees_as_text(equations: list[FunctionPoly]) -> str:
     """Which d are roots of the equations."""
     claim = DegreeExists("d", natural_root(equations, "d", Setting()), 1, lambda *_: True)
-    return prose.text_of_words(prose.sentence(claim)).removesuffix(", d in N, and Delta_d = 0")
+    return text_of_words(prose.sentence(claim)).removesuffix(", d in N, and Delta_d = 0")
 
 
 def test_a_family_without_its_mirror_image_is_not_merged() -> None:
@@ -280,7 +281,7 @@ def test_two_functions_of_an_integer_are_one_formula() -> None:
     def said(*functions: RatFunc) -> str:
         families = tuple(IntegerFamily("d", "a", function, INTEGERS) for function in functions)
         degree = DegreeExists("d", AnyOf(families), 1, lambda *_: True)
-        return prose.text_of_words(prose.sentence(degree)).partition(",")[0]
+        return text_of_words(prose.sentence(degree)).partition(",")[0]
 
     assert said(d + 1, -d - 1) == "a = +-(d + 1)"
     assert said(b + d, b - d) == "a = b +- d"
@@ -566,7 +567,7 @@ def test_jacobi_polynomials_that_vanish() -> None:
 
     def excluded(*parameters: Any) -> str:
         found = PolynomialSolution(jacobi(n, *parameters, z), n, jacobi=tuple(map(sympy.sympify, parameters)))
-        return prose.text_of_words(found.exclusion("d"))
+        return text_of_words(found.exclusion("d"))
 
     assert excluded(-1, -1) == ", unless n = 1"
     assert excluded(-2, -3) == ", unless 3 <= n <= 4"

@@ -22,13 +22,13 @@ from parametric_cases import hypergeometric
 import kovacic
 from kovacic.decision import Structure
 from kovacic.parametric.api import Sampler
-from kovacic.parametric.prose import text_of_words
 from kovacic.parametric.regions import Theory, solvable_cases
 from kovacic.parametric.riemann import Schwarz, kimura_structure
 from kovacic.parametric.solutions import families_of
 from kovacic.parametric.statements import Both, Either, Statement, Vanishes
 from kovacic.views.theorem import blocks
 from kovacic.writing.document import Formula, Math, Paragraph, Table, format_of
+from kovacic.writing.formula import text_of_words
 
 R = sympy.Rational
 x = sympy.Symbol("x")
