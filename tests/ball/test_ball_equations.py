@@ -13,8 +13,9 @@ from build import parametrize
 
 from kovacic import InputError, LimitExceeded
 from kovacic.ball import InRoots, RollingBall, U, X
+from kovacic.ball.body import sign
 from kovacic.ball.derivation import PRINTED, equations_of, explained, holds, residuals, vanishes
-from kovacic.ball.theorems import ball_theorem
+from kovacic.ball.theorems import C1, ball_theorem, closed_form
 from kovacic.writing.breaking import breakable
 
 m, R, a, A1, A3, R1, x1, x2, D, k = sp.symbols("m R a A1 A3 R1 x1 x2 D k")
@@ -251,3 +252,23 @@ def test_what_the_theorems_say():
 
 def test_symbolic_parameters_leave_the_case_open():
     assert ball_theorem(RollingBall(m=m, R=R, a=a, A1=A1, A3=A3).on_sphere(R1))[1] is None
+
+
+def test_equal_radii_and_large_integers():
+    """For R1 = R omega_3 = c1 is a solution; for N = 15 omega is written in powers of sqrt(x - x1) +- sqrt(x - x2)."""
+    place = RollingBall(m=1, R=1, a=0, A1="1/4", A3="1/3").on_sphere(1)
+    found = closed_form(place)
+    assert found.omega_3.expand().coeff(C1) == 1
+    assert found.solves(place)
+    place = InRoots(sp.Rational(15, 2))
+    found = closed_form(place)
+    assert found.solves(place)
+    r, s = sp.sqrt(X - x1), sp.sqrt(X - x2)
+    assert all((r + s) ** 15 in omega.atoms(sp.Pow) for omega in found.omega)
+
+
+def test_what_is_neither_zero_nor_known_not_to_be():
+    machin = 4 * sp.atan(sp.Rational(1, 5)) - sp.atan(sp.Rational(1, 239)) - sp.pi / 4
+    with pytest.raises(InputError, match="can't be decided whether .* is zero"):
+        sign(machin)
+    assert (sign(machin + sp.Rational(1, 10**9)), sign(machin - sp.Rational(1, 10**9))) == (1, -1)
