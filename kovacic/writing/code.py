@@ -50,7 +50,7 @@ _JULIA = """
 
 @dataclass(frozen=True)
 class _Language:
-    """The name, SymPy's printer, brackets around arguments and lists, the names of functions, and those that mean something.
+    """The name, SymPy's printer, brackets around arguments, the names of functions, and those that mean something.
 
     `patterns` are for the printed arguments; E/1 is E with one argument.
     """
@@ -58,7 +58,6 @@ class _Language:
     name: str
     printer: Any
     calls: str
-    lists: str
     assignment: str
     comment: str
     taken: str
@@ -68,7 +67,7 @@ class _Language:
 
 CODE_LANGUAGES = {
     "mathematica": _Language(
-        "Mathematica", MCodePrinter, "[]", "{}", "{} = {};", "(* {} *)", "C D E I K N O Pi", _MATHEMATICA,
+        "Mathematica", MCodePrinter, "[]", "{} = {};", "(* {} *)", "C D E I K N O Pi", _MATHEMATICA,
         {
             "lowergamma": "Gamma[{0}, 0, {1}]",
             "Heaviside": "UnitStep[{0}]",
@@ -78,7 +77,7 @@ CODE_LANGUAGES = {
         },
     ),
     "maple": _Language(
-        "Maple", MapleCodePrinter, "()", "[]", "{} := {};", "# {}", "D I O Pi gamma Zeta Psi", _MAPLE,
+        "Maple", MapleCodePrinter, "()", "{} := {};", "# {}", "D I O Pi gamma Zeta Psi", _MAPLE,
         {
             "lowergamma": "(GAMMA({0}) - GAMMA({0}, {1}))",
             "Heaviside": "Heaviside({0})",
@@ -96,7 +95,7 @@ CODE_LANGUAGES = {
         },
     ),
     "julia": _Language(
-        "Julia", JuliaCodePrinter, "()", "()", "{}(x) = {}", "# {}", "im pi e gamma", _JULIA,
+        "Julia", JuliaCodePrinter, "()", "{}(x) = {}", "# {}", "im pi e gamma", _JULIA,
         {"lowergamma": "(gamma({0}) - gamma({0}, {1}))"},
     ),
 }  # fmt: skip
@@ -158,11 +157,6 @@ def _printer(language: _Language) -> Any:
             if own is not None:
                 printed = [*map(self._print, arguments)]
                 return own.format(*printed) if "{0}" in own else own + ", ".join(printed).join(language.calls)
-            if isinstance(expr, sympy.Tuple):
-                elements = ", ".join(map(self._print, expr))
-                if language.name == "Julia" and expr.args:  # a tuple, in which a single element needs the comma
-                    elements += ","
-                return elements.join(language.lists)
             is_foreign = isinstance(expr, sympy.CRootOf | sympy.RootSum | sympy.Integral | sympy.Derivative)
             if isinstance(expr, sympy.Function):
                 is_foreign = kind not in _WRITTEN_BY_SYMPY.split()

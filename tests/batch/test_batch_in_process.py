@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager
 from itertools import islice
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -220,3 +222,22 @@ def test_a_worker_answers_until_the_end_and_sets_its_limits(
         worker.serve(SimpleNamespace(receive=receive, send=sent.append))  # type: ignore[arg-type]
     assert [(record.number, record.label) for record in sent] == [(0, "case 1"), (3, "none"), (8, "bad input")]
     assert done == [*said, 0.0] * 2
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="other systems have no memory limits")
+def test_the_memory_limit_moves_with_the_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    pages = int(Path("/proc/self/statm").read_text().split()[0])
+    for hard, expected in ((-1, None), (10**20, None), (10**6, 10**6)):
+        done: list[Any] = []
+        fake = SimpleNamespace(
+            RLIMIT_AS=9,
+            RLIM_INFINITY=-1,
+            getpagesize=lambda: 2**20,
+            getrlimit=lambda which, hard=hard: (which, hard),
+            setrlimit=lambda *of, done=done: done.append(of),
+        )
+        monkeypatch.setitem(sys.modules, "resource", fake)  # type: ignore[arg-type]
+        worker._limit_memory(300)
+        ((which, (soft, bound)),) = done
+        assert (which, bound) == (9, hard)
+        assert abs(soft - (expected or (pages + 300) * 2**20)) < (1 if expected else 50 * 2**20)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import io
+import pickle
 import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from build import parametrize
 from processes import answered, talks
 
+from kovacic import process as process_module
 from kovacic.errors import LimitExceeded
 from kovacic.limits import Budget, Limits
-from kovacic.process import Process, computed_apart
+from kovacic.process import Channel, Process, computed_apart, echo
 
 
 @parametrize("value", [None, 1, "x^2 + 3", (None, (2**100,))], ordinary=(1,))
@@ -77,3 +81,65 @@ def test_a_process_that_was_killed_ends() -> None:
     assert process.last_words() == (-9, "")
     process.close()
     process.close()
+
+
+def test_the_child_answers_its_parent_and_leaves_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pickles in their order; standard output is the error stream; when the parent is another one, the child ends."""
+    given, answers, done = io.BytesIO(b"".join(map(pickle.dumps, (echo, 3, "x")))), io.BytesIO(), list[Any]()
+    parents = iter([70, 70, 70, 1])
+
+    def leave(status: int) -> None:
+        done.append(("left", status))
+
+    monkeypatch.setattr(
+        process_module, "signal", SimpleNamespace(signal=lambda *of: done.append(of), SIGINT=2, SIG_IGN=1)
+    )
+    monkeypatch.setattr(
+        process_module,
+        "os",
+        SimpleNamespace(
+            dup=lambda number: 40 + number,
+            dup2=lambda old, new: done.append((old, new)),
+            fdopen=lambda number, mode: answers if (number, mode) == (41, "wb") else None,
+            getppid=lambda: next(parents),
+            _exit=leave,
+        ),
+    )
+    monkeypatch.setattr(process_module.time, "sleep", lambda seconds: done.append(seconds))
+    monkeypatch.setattr(process_module.sys, "stdin", SimpleNamespace(buffer=given))
+    threads: list[Any] = []
+
+    class Thread:
+        def __init__(self, target: Callable[[], None], daemon: bool) -> None:
+            threads.append((target, daemon))
+
+        def start(self) -> None:
+            """Later."""
+
+    monkeypatch.setattr(process_module.threading, "Thread", Thread)
+    process_module.serve_parent()
+    answers.seek(0)
+    assert (pickle.load(answers), pickle.load(answers), answers.read()) == (3, "x", b"")
+    assert done == [(2, 1), (2, 1)]
+    ((watch, daemon),) = threads
+    watch()
+    assert daemon
+    assert done[2:] == [1.0, 1.0, ("left", 1)]
+
+
+def test_a_computation_has_a_second_more_than_its_parent_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    alarms: list[float] = []
+    monkeypatch.setattr(process_module, "set_alarm", alarms.append)
+    given, found = io.BytesIO(pickle.dumps((pow, (2, 5), 7.5))), io.BytesIO()
+    process_module._compute(Channel(given, found))
+    found.seek(0)
+    assert (pickle.load(found), alarms) == (32, [8.5])
+
+
+def test_an_alarm_is_set_where_the_system_has_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[Any] = []
+    monkeypatch.setattr(process_module, "signal", SimpleNamespace(setitimer=lambda *of: done.append(of), ITIMER_REAL=3))
+    process_module.set_alarm(2.5)
+    monkeypatch.setattr(process_module, "signal", SimpleNamespace())
+    process_module.set_alarm(4.5)
+    assert done == [(3, 2.5)]

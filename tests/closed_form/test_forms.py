@@ -93,6 +93,17 @@ def test_code_of_other_systems() -> None:
         sympy.elliptic_pi(n, t, m): ("EllipticPi[n, t, m]", "EllipticPi(sin(t), n, sqrt(m))", "Elliptic.Pi(n, t, m)"),
         sympy.lowergamma(n, t): ("Gamma[n, 0, t]", "(GAMMA(n) - GAMMA(n, t))", "(gamma(n) - gamma(n, t))"),
         sympy.hyper((n,), (), t): ("HypergeometricPFQ[{n}, {}, t]", "hypergeom([n], [], t)", "pFq((n,), (), t)"),
+        sympy.hyper((n, sympy.Rational(2, 3)), (m,), t): (
+            "HypergeometricPFQ[{2/3, n}, {m}, t]",
+            "hypergeom([2/3, n], [m], t)",
+            "pFq((2 // 3, n), (m,), t)",
+        ),
+        sympy.RootSum(m**3 - 2 * m + 5, sympy.Lambda(m, m**2 * sympy.log(t - m)), auto=False): (
+            "RootSum[Function[a, a^3 - 2*a + 5], Function[a, a^2*Log[-a + t]]]",
+            "sum(a^2*ln(-a + t), a = RootOf(a^3 - 2*a + 5, a))",
+            "Julia has no RootSum, or one with another meaning",
+        ),
+        (-2) ** t * m**2: ("(-2)^t*m^2", "(-2)^t*m^2", "complex(-2) ^ (t) .* m .^ 2"),
         sympy.airyaiprime(t): ("AiryAiPrime[t]", "AiryAi(1, t)", "airyaiprime(t)"),
         sympy.besselk(2 * sympy.I, t): ("BesselK[2*I, t]", "BesselK(2*I, t)", "Julia's besselk has no complex orders"),
         sympy.Ei(sympy.pi * t): ("ExpIntegralEi[Pi*t]", "Ei(Pi*t)", "expinti(pi * t)"),
@@ -122,6 +133,9 @@ def test_code_of_other_systems() -> None:
             except kovacic.InputError as refused:
                 found = str(refused)
             assert found == code
+    with pytest.raises(kovacic.InputError, match="unknown language 'fortran'") as refused:
+        kovacic.as_code(t, "fortran")
+    assert refused.value.hint == "available: mathematica, maple, julia"
 
 
 def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:

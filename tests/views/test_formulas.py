@@ -13,7 +13,7 @@ from hypothesis import given
 import kovacic
 from kovacic.views.sentences import formulas_of, normal_form_of
 from kovacic.writing.breaking import breakable, pieces
-from kovacic.writing.formula import Formulas, latex_text
+from kovacic.writing.formula import Formulas, latex_text, with_single_powers
 
 
 @pytest.mark.long
@@ -135,3 +135,21 @@ def test_the_normal_form_is_written_as_a_mathematician_would(S: str, text: str, 
 def test_a_place_is_its_point_or_the_equation_of_its_points(factor: str, written: str) -> None:
     """The factor is in the engine's variable, what is written in the user's."""
     assert Formulas("t", QQ).place(factor).text == written
+
+
+@pytest.mark.parametrize(
+    ("text", "short"),
+    [
+        ("3*(b^(1/2))^2 + exp(a + b)^2", "3*b + exp(a + b)^2"),
+        ("(a^(2/3))^6*sqrt(b)^6", "a^4*b^3"),
+        ("(a^n)^3 - sqrt(a)^3", "a^(3*n) - sqrt(a)^3"),
+        ("exp(2)^3 + (a^(b + 1))^2", "exp(6) + (a^(b + 1))^2"),
+        ("exp(-2*a*b/3)^5/(b^(-1/2))^4", "exp(-10*a*b/3)/b^(-2)"),
+        ("sqrt(a + b)^4 - sqrt(a + b)^2", "(a + b)^2 - (a + b)"),
+    ],
+)
+def test_powers_of_powers_are_single_ones(text: str, short: str) -> None:
+    assert with_single_powers(text) == short
+    values = {"a": sympy.Rational(2, 7), "b": sympy.Rational(3, 5), "n": sympy.Rational(4, 3)}
+    difference = sympy.sympify(f"{text} - ({short})".replace("^", "**"))
+    assert abs(difference.subs(values).evalf(20)) < 1e-15
