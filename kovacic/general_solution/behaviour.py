@@ -430,8 +430,8 @@ def value_or_limit(expression: Expr, x: Expr, point: Expr, order: int = 0) -> Ex
         right, left = (limit_at(e, x, Approach(point, direction)) for direction in (1, -1))
         if {right, left}.isdisjoint((oo, OSCILLATING)) and agree(right, left):
             return right
-    said = f"the functions of the closed form are singular at {point}, where the solutions aren't"
-    raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of this solution")
+    said = f"a finite value of the closed form isn't found at {point}"
+    raise NotImplementedError(f"{said}: kovacic.evaluate gives the values of solutions that are regular there")
 
 
 def _checked_value(e: Expr, x: Expr, point: Expr) -> Expr | None:

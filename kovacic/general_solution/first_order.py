@@ -10,6 +10,7 @@ with powers of cosh(x), cos(x), ... for tanh(x), tan(x), ... in q; the others ar
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Set
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple, Self
@@ -24,7 +25,7 @@ from kovacic.closed_form.product import product
 from kovacic.closed_form.steps import JUMPING, Apart, in_parts
 from kovacic.errors import InputError, UnsatisfiableConditions, VerificationFailed
 from kovacic.general_solution.antiderivatives import antiderivative
-from kovacic.general_solution.behaviour import have_values, value_or_limit
+from kovacic.general_solution.behaviour import Approach, UnknownLimit, have_values, limit_at, value_or_limit
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.conditions import Condition, conditions_at, read_conditions
 from kovacic.general_solution.integrands import NUMBERS, ratfunc
@@ -352,12 +353,21 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
         if is_finite(particular.subs(x, a)) and is_zero(v - value_or_limit(particular, x, a)):
             return _ZERO
         raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
+    if not equation.is_regular and all(_is_infinite(particular, x, Approach(a, side)) for side in (1, -1)):
+        raise _without_value(a)
     rest, there = v - value_or_limit(particular, x, a), value_or_limit(h, x, a)
     if equation.is_regular or not is_zero(there):
         return powsimp(rest / there)
     if is_zero(rest):
         return free
     raise _without_value(a)
+
+
+def _is_infinite(particular: Expr, x: Expr, approach: Approach) -> bool:
+    """True if the limit is known to be infinite; all solutions are then infinite there, as h isn't."""
+    with suppress(UnknownLimit):
+        return bool(limit_at(particular, x, approach) == sympy.oo)
+    return False
 
 
 def _without_value(a: Expr) -> UnsatisfiableConditions:

@@ -59,7 +59,7 @@ class Site:
         """An error of the operation with its place in the text."""
         begin, right, end = self.span
         if isinstance(error, LimitExceeded):
-            where = f"{self.text()} at position {self.tokens[begin].start}"
+            where = f"{self.text() or 'the text'} at position {self.tokens[begin].start}"
             said = f"{error} while {where} was read" if error.limit == "seconds" else f"{where} would have {error}"
             return LimitExceeded(said, limit=error.limit)
         if isinstance(error, ZeroDivisionError):

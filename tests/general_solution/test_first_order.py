@@ -241,6 +241,11 @@ def test_values_at_a_singular_point() -> None:
     assert kovacic.dsolve("x*y' = 2*y, y(0) = 0").rhs == sympy.Symbol("C1") * x**2
     with pytest.raises(kovacic.UnsatisfiableConditions, match="no solution with this value at 0, a singular point"):
         kovacic.dsolve("x*y' = 2*y, y(0) = 1")
+    for text in ("(x-1)*y' = 1", "y' = y + 1/(x-1)^2"):  # every solution is infinite at 1
+        with pytest.raises(kovacic.UnsatisfiableConditions, match="no solution with this value at 1, a singular point"):
+            kovacic.dsolve(text, ics="y(1)=2")
+    with pytest.raises(NotImplementedError, match="a finite value of the closed form isn't found at 0"):
+        kovacic.dsolve("y' = exp(1/x)/x^2", ics="y(0)=1")  # it has this limit from the left alone
     with pytest.raises(kovacic.InputError, match="at most one solution is finite at 0, a singular point"):
         kovacic.dsolve("x*y' + y = sin(x), y(0) = 1")
 
