@@ -54,7 +54,7 @@ class Answer:
     @property
     def gauge(self) -> RatFunc:
         """-b/(2a) for an equation a y'' + b y' + c y = f: its solutions are those of y'' = S y times exp(int gauge dx)."""
-        return RatFunc(self.S.field.poly([])) if self.equation is None else self.equation.gauge
+        return RatFunc(self.S.field.zero) if self.equation is None else self.equation.gauge
 
     @property
     def change(self) -> Change | None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum, StrEnum
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 
 
 class Status(StrEnum):
@@ -151,7 +151,7 @@ class SemiInvariant:
     @property
     def logarithmic_derivative(self) -> RatFunc:
         """f'/f, the sum of the conjugates of omega."""
-        return self.theta + RatFunc(self.P.derivative(), self.P)
+        return self.theta + logarithmic_derivative(self.P)
 
 
 @dataclass(frozen=True)
@@ -218,7 +218,7 @@ class RiccatiPolynomial:
         """The coefficients of W^0, ..., W^m in lowest terms; the last one is 1."""
         m = self.degree
         lower = [RatFunc(self.numerators[k] * (-1) ** k, self.P * self.D**k) for k in range(m, 0, -1)]
-        return (*lower, RatFunc(self.P.field.poly([1])))
+        return (*lower, RatFunc(self.P.field.one))
 
 
 @dataclass(frozen=True)

@@ -100,7 +100,7 @@ class Equation:
     Examples
     --------
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> bessel = Equation(x**2, x, x**2 - 1, x * 0)
     >>> print(bessel)
     x^2*y'' + x*y' + (x^2 - 1)*y = 0

@@ -148,7 +148,7 @@ def adjoined_root(factor: Poly, target: Any, name: str) -> tuple[Poly, Poly]:
     old = factor.field
     if not isinstance(old, AlgebraicField):
         field = AlgebraicField(QQ, factor, name, _nearest_root(factor, target))
-        return field.poly([]), field.generator
+        return field.zero, field.generator
     tower = AlgebraicField(old, factor)
     n = tower.absolute_degree
     shift, powers = _primitive_element(tower, old)
@@ -187,7 +187,7 @@ def _matrix(columns: list[list[Any]]) -> fmpq_mat:
 
 def substituted(constant: Poly, theta: Poly) -> Poly:
     """The element with its generator replaced by another field's element."""
-    total = theta.field.poly([])
+    total = theta.field.zero
     for part in reversed(constant.parts):
         total = total * theta + part
     return total

@@ -63,7 +63,7 @@ class AlgebraicField(Field):
     @property
     def generator(self) -> ExtensionPoly:
         """The constant c."""
-        return self.element(self.base.poly([0, 1]))
+        return self.element(self.base.x)
 
     def element(self, polynomial: Poly) -> ExtensionPoly:
         """The value at c of a polynomial over K of a lower degree than the modulus."""
@@ -101,7 +101,7 @@ class AlgebraicField(Field):
     def _factor_squarefree(self, polynomial: Poly) -> list[Poly]:
         if polynomial.degree <= 1:
             return [polynomial] if polynomial.degree == 1 else []
-        x = self.poly([0, 1])
+        x = self.x
         for shift in integers_by_size():
             shifted = polynomial(x - self.generator * shift)
             image = norm(shifted)
@@ -383,7 +383,7 @@ def root_in_residue_field(value: Poly, p: Poly, n: int) -> Poly | None:
 
 def inverse_root(value: Poly, p: Poly, n: int, precision: int, start: Poly | int = 1) -> Poly:
     """The y = start modulo p with value y^n = 1 modulo p^precision, where that holds modulo p; by Newton's method."""
-    y = value.field.poly([]) + start
+    y = value.field.zero + start
     known = 1
     while known < precision:
         known = min(2 * known, precision)

@@ -49,7 +49,7 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
     """(N, q) for each factor p^k of den, the product of them all: num/den = N/(p^k q) + O(p^(nu - k)), nu = k/2 or 1.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = QQ.poly([0, 1])
+    >>> x = QQ.x
     >>> [(str(N), str(q)) for N, q in expansions(x + 2, x * (x - 1) ** 2, [(x, 1), (x - 1, 2)])]
     [('2', '1'), ('3', '1')]
     """
@@ -58,7 +58,7 @@ def expansions(num: Poly, den: Poly, factors: Sequence[tuple[Poly, int]]) -> lis
         return [(num % modulus, den // p**k % modulus) for (p, k), modulus in zip(factors, moduli, strict=True)]
     # The sum of den/p^k over all factors is the cofactor of each factor modulo its power.
     tree = products([p**k for p, k in factors])
-    cofactors = _over_common_denominator([num.field.poly([1])] * len(factors), tree)
+    cofactors = _over_common_denominator([num.field.one] * len(factors), tree)
     of_moduli = products(moduli)
     return list(zip(_remainders_in_tree(num, of_moduli), _remainders_in_tree(cofactors, of_moduli), strict=True))
 
@@ -106,7 +106,7 @@ def dependence(polynomials: Sequence[Poly]) -> list[Poly] | None:
 
 def _reduced_by_former(polynomials: Sequence[Poly]) -> Iterator[_Combination]:
     """Each polynomial minus a combination of its predecessors, of a degree that none of their own remainders has."""
-    zero = polynomials[0].field.poly([])
+    zero = polynomials[0].field.zero
     echelon: dict[int, _Combination] = {}
     for k, polynomial in enumerate(polynomials):
         unit = [zero] * len(polynomials)

@@ -325,7 +325,7 @@ def _substitute(polynomial: Any, values: Sequence[Poly], field: Field) -> Poly:
                 term = term * powers[i, exponent]
         power = int(exponents[0])
         columns[power] = columns[power] + term if power in columns else term
-    zero = field.poly([])
+    zero = field.zero
     return field.poly([columns.get(k, zero) for k in range(max(columns, default=-1) + 1)])
 
 

@@ -54,7 +54,7 @@ def decompose(r: RatFunc) -> Decomposition:
     """The exact part and the residues of a rational function, residues in the order of `Field.factor`.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> parts = decompose(x + 1 / x**2 + 3 * x / (x**2 - 2))
     >>> print(parts.exact, [(str(part.factor), str(part.value)) for part in parts.residues])
     (x**3 - 2)/(2*x) [('x**2 - 2', '3/2')]
@@ -62,7 +62,7 @@ def decompose(r: RatFunc) -> Decomposition:
     field = r.field
     polynomial, rest = divmod(r.num, r.den)
     exact = RatFunc(field.poly([0, *(polynomial[k] / field.poly([k + 1]) for k in range(polynomial.degree + 1))]))
-    W, _, residues = reduce_poles(RatFunc(rest, r.den, reduced=True), RatFunc(field.poly([])))
+    W, _, residues = reduce_poles(RatFunc(rest, r.den, reduced=True), RatFunc(field.zero))
     return Decomposition(exact + W, residues)
 
 
@@ -72,7 +72,7 @@ def reduce_poles(r: RatFunc, slope: RatFunc, apart: Poly | None = None) -> tuple
     The poles at the zeros of `apart` stay as they are; no other is a pole of the slope.  For the slope k'/k, W k is the part
     of int r k dx that Hermite's reduction finds; the slope 0 is that of int r dx.
     """
-    W = RatFunc(r.field.poly([]))
+    W = RatFunc(r.field.zero)
     den = r.den if apart is None else prime_part(r.den, apart)
     for p, multiplicity in squarefree_factors(den):
         if multiplicity > 1:

@@ -65,9 +65,9 @@ class Poly(Immutable):
 
     def _divmod(self, other: Self) -> tuple[Self, Self]:
         inverse = other.lc.inverse()
-        x = self.field.poly([0, 1])
+        x = self.field.x
         remainder = self
-        quotient = [self.field.poly([])] * max(self.degree - other.degree + 1, 0)
+        quotient = [self.field.zero] * max(self.degree - other.degree + 1, 0)
         while remainder.degree >= other.degree:
             check_time()
             shift = remainder.degree - other.degree
@@ -176,7 +176,7 @@ class Poly(Immutable):
         if exponent < 0:
             raise ValueError("a polynomial has no negative powers")
         if exponent < 2:
-            return self if exponent else self.field.poly([1])  # type: ignore[return-value]
+            return self if exponent else self.field.one  # type: ignore[return-value]
         root = self ** (exponent // 2)
         return root._mul(root)._mul(self) if exponent % 2 else root._mul(root)
 
@@ -195,7 +195,7 @@ class Poly(Immutable):
 
     def __call__(self, point: Poly | Scalar) -> Poly:
         """The value at a point: a constant, or another polynomial (composition), by Horner's rule."""
-        result: Any = self.field.poly([])
+        result: Any = self.field.zero
         for coefficient in reversed([*self]):
             result = result * point + coefficient
         return result  # type: ignore[no-any-return]
@@ -204,6 +204,11 @@ class Poly(Immutable):
     def lc(self) -> Self:
         """The leading coefficient (zero for the zero polynomial)."""
         return self[max(self.degree, 0)]
+
+    @property
+    def mean_of_zeros(self) -> Self:
+        """-c_(n-1)/(n c_n) for a degree n > 0."""
+        return -self[self.degree - 1] / (self.lc * self.degree)
 
     @property
     def is_constant(self) -> bool:
@@ -250,8 +255,8 @@ class Poly(Immutable):
         """The monic greatest common divisor d, and s with d = s self modulo the other polynomial."""
         r0: Any = self
         r1: Any = other
-        s0: Any = self.field.poly([1])
-        s1: Any = self.field.poly([])
+        s0: Any = self.field.one
+        s1: Any = self.field.zero
         while r1.degree > 0:
             quotient, rest = divmod(r0, r1)
             r0, r1, s0, s1 = r1, rest, s1, s0 - quotient * s1
@@ -286,7 +291,7 @@ class Poly(Immutable):
 
     def to_str(self, variable: str = "x") -> str:
         """Python/SymPy syntax, with one common denominator."""
-        return quotient_str(self, self.field.poly([1]), variable)
+        return quotient_str(self, self.field.one, variable)
 
     def integer_str(self, variable: str) -> str:
         """Python syntax for a polynomial whose coefficients have integer coordinates."""
@@ -322,6 +327,21 @@ class Field:
     @abstractmethod
     def poly(self, coefficients: Iterable[Scalar | Poly]) -> Poly:
         """The polynomial with these coefficients, low to high: rational numbers or constants of the field."""
+
+    @property
+    def x(self) -> Poly:
+        """The polynomial x."""
+        return self.poly([0, 1])
+
+    @property
+    def one(self) -> Poly:
+        """The constant 1."""
+        return self.poly([1])
+
+    @property
+    def zero(self) -> Poly:
+        """The constant 0."""
+        return self.poly([])
 
     @abstractmethod
     def extends(self, other: Field) -> bool:

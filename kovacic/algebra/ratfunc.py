@@ -33,7 +33,7 @@ class RatFunc(Immutable):
     >>> print(S, S.degree, S(3), S.derivative())
     (x**2 - 1)/(2*x) 1 4/3 (x**2 + 1)/(2*x**2)
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> print((x**2 - 1) / (2 * x - 2))
     (x + 1)/2
     """
@@ -46,7 +46,7 @@ class RatFunc(Immutable):
     def __init__(self, num: Poly, den: Poly | None = None, *, reduced: bool = False) -> None:
         """`num/den`; `reduced=True` promises that they are coprime and den is monic."""
         if den is None:
-            num, den = num, num.field.poly([1])
+            num, den = num, num.field.one
         elif not reduced:
             if not den:
                 raise ZeroDivisionError("the denominator is zero")
@@ -220,8 +220,8 @@ class RatFunc(Immutable):
 
 def _homogenise(polynomial: Poly, point: RatFunc, degree: int) -> Poly:
     """`den(point)**degree * polynomial(point)`."""
-    result: Poly = polynomial.field.poly([])
-    power: Poly = polynomial.field.poly([1])
+    result: Poly = polynomial.field.zero
+    power: Poly = polynomial.field.one
     for k in range(degree, -1, -1):
         result = result * point.num + polynomial[k] * power
         power = power * point.den
@@ -234,3 +234,7 @@ def over_one_denominator(functions: Sequence[RatFunc]) -> list[Poly]:
     for f in functions[1:]:
         common = common * (f.den // common.gcd(f.den))
     return [f.num * (common // f.den) for f in functions]
+
+
+def logarithmic_derivative(polynomial: Poly) -> RatFunc:
+    return RatFunc(polynomial.derivative(), polynomial)

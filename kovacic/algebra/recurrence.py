@@ -74,8 +74,8 @@ class FieldSeries:
     def __init__(self, field: Field, width: int) -> None:
         self._field = field
         self._width = width
-        self._terms = [field.poly([1])]
-        self._zero = field.poly([])
+        self._terms = [field.one]
+        self._zero = field.zero
 
     def polynomial(self, count: int) -> Poly:
         return self._field.poly(self._terms[:count])
@@ -268,7 +268,7 @@ def _remainder(second: Poly, first: Poly, zeroth: Poly, P: Poly) -> Poly:
     By products, which stay fast where the operator is long; of P they need no more than the low powers.
     """
     shift = _shift(second, first, zeroth)
-    x = P.field.poly([0, 1])
+    x = P.field.x
     low = P if P.degree < shift + 2 else P % x ** (shift + 2)
     slope = low.derivative()
     return (second * slope.derivative() + first * slope + zeroth * low) % x ** max(shift, 0)

@@ -68,7 +68,7 @@ def characteristic_polynomial(element: Poly, modulus: Poly) -> Poly:
     traces = list[Poly]()
     power = element % modulus
     for _ in range(n):
-        traces.append(sum((power[i] * sums[i] for i in range(power.degree + 1)), field.poly([])))
+        traces.append(sum((power[i] * sums[i] for i in range(power.degree + 1)), field.zero))
         power = power * element % modulus
     return field.poly(coefficients_from_traces(traces)[::-1])
 
@@ -87,7 +87,7 @@ def coefficients_from_traces(traces: Sequence[Poly]) -> list[Poly]:
 
     The traces are those of the first n powers.
     """
-    coefficients = [traces[0].field.poly([1])]
+    coefficients = [traces[0].field.one]
     for k in range(1, len(traces) + 1):
         total = sum((coefficients[k - i] * traces[i - 1] for i in range(1, k)), traces[k - 1])
         coefficients.append(total * Fraction(-1, k))

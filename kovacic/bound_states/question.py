@@ -16,10 +16,9 @@ from kovacic.errors import InputError
 from kovacic.general_solution.conditions import read_conditions
 from kovacic.numbers.numerals import as_text
 from kovacic.parametric.assumptions import Assumptions
-from kovacic.parametric.integers import free_letter
 from kovacic.reading.symbolic import names_of
 from kovacic.sturm_liouville.problem import Robin
-from kovacic.writing.formula import caret
+from kovacic.writing.formula import caret, free_name
 
 FRIEDRICHS = "friedrichs"
 
@@ -160,4 +159,4 @@ def read_boundary(boundary: str | None, ends: Sequence[Any], variable: str) -> B
 
 def number_beside(*taken: str) -> Any:
     """The symbol for the number of a level where these names are taken."""
-    return sympy.Symbol(free_letter(taken, "nkjm"))
+    return sympy.Symbol(free_name(taken, *"nkjm"))

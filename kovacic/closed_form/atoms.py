@@ -208,8 +208,8 @@ class Atoms:
         """
         field = polynomial.field
         if not polynomial or (field.height and field.ground == QQ):
-            return field.poly([1]), polynomial
-        shown, _ = field.ground.cleared(polynomial, field.poly([]))
+            return field.one, polynomial
+        shown, _ = field.ground.cleared(polynomial, field.zero)
         if self.is_negative(shown.lc):
             shown = -shown
         return polynomial.lc / shown.lc, shown

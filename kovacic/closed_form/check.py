@@ -13,7 +13,7 @@ from sympy import Dummy
 
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_digits
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.algebra.rationals import RationalPoly
 from kovacic.closed_form.atoms import Atoms
 from kovacic.closed_form.curve import CurveIntegral
@@ -25,7 +25,6 @@ from kovacic.closed_form.structure import (
     Diagonal,
     OnCurve,
     Triangular,
-    logarithmic_derivative,
 )
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time

@@ -47,7 +47,7 @@ from fractions import Fraction
 
 from kovacic.algebra.partial_fractions import Residue, reduce_poles
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.decision import CurveFunction, SemiInvariant
 from kovacic.engine.places import analyse, rational_square_root
 from kovacic.galois.chain import logarithmic_slope, remainders
@@ -110,7 +110,7 @@ class CurveIntegral:
     @property
     def kernel_derivative(self) -> RatFunc:
         """The logarithmic derivative of 1/s."""
-        return RatFunc(self.g.derivative(), self.g) * Fraction(-1, 2)
+        return logarithmic_derivative(self.g) * Fraction(-1, 2)
 
     @property
     def is_elementary(self) -> bool:
@@ -122,7 +122,7 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     """int r dx/sqrt(g) for a monic squarefree g.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> done = integrate_on_curve(1 / x**2, QQ.poly([1, 0, 1]))  # -sqrt(x^2 + 1)/x
     >>> print(done.exact, len(done.residues), done.rest)
     -1/x 0 0
@@ -131,7 +131,7 @@ def integrate_on_curve(r: RatFunc, g: Poly) -> CurveIntegral:
     g = g.over(field)
     d = g.degree
     # with the kernel 1/s: int r/s = W/s + ..., and W/s = (W/g) s
-    W, r, residues = reduce_poles(r, RatFunc(g.derivative(), g) * Fraction(-1, 2), g)
+    W, r, residues = reduce_poles(r, logarithmic_derivative(g) * Fraction(-1, 2), g)
     exact = W / g
     r = r - sum((found.logarithmic for found in residues), r * 0)
     for p, _ in field.factor(r.den):
@@ -234,11 +234,11 @@ def _decide(integral: CurveIntegral) -> tuple[Unit, ...] | str:
         return SEVERAL
     kappa_squared = tau_squared * Fraction(1, 16)
     r = integral.without_exact
-    phi = RatFunc(g.derivative(), g) / 2 - r.derivative() / r
+    phi = logarithmic_derivative(g) / 2 - r.derivative() / r
     S = phi.derivative() / 2 + phi * phi / 4 + r * r / g * kappa_squared
     # The form f: its zeros at ordinary points, where a residue belongs to the exponents 0 and 1, are P's.
     P = phi.den // phi.den.gcd(S.den)
-    form = SemiInvariant(2, phi - RatFunc(P.derivative(), P), P)
+    form = SemiInvariant(2, phi - logarithmic_derivative(P), P)
     group = imprimitive_group(analyse(S, Budget()), form)
     if group.kind is GroupKind.INFINITE_DIHEDRAL:
         return NOT_TORSION

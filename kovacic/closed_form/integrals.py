@@ -282,8 +282,8 @@ class _Curve:
     @classmethod
     def of(cls, r: RatFunc, g: Poly) -> _Curve:
         """In t = (x - c)^2 if r, and g of degree 4, are even about c; else in x."""
-        x = RatFunc(g.field.poly([0, 1]))
-        centre = -g[g.degree - 1] / g.degree
+        x = RatFunc(g.field.x)
+        centre = g.mean_of_zeros
         moved, curve = r(x + centre), g(x.num + centre)
         if g.degree == 3 or curve[1] or moved(-x) != moved:
             return cls(r, g, x)
@@ -299,7 +299,7 @@ class _Curve:
 
     def moved(self, *points: Poly | None) -> _Curve:
         """In the Moebius function that is 0, 1 and infinity at these points; None stands for infinity."""
-        t = RatFunc(self.g.field.poly([0, 1]))
+        t = RatFunc(self.g.field.x)
         (a, b), (c, d), (e, f) = ((t.num * 0 + 1, 0) if p is None else (p, 1) for p in points)
         above, below = c * f - e * d, c * b - a * d
         back = (e * below * -t + a * above) / (above * b - below * f * t)
@@ -373,7 +373,7 @@ def _by_tangent(curve: _Curve, atoms: Atoms) -> list[tuple[Poly, Expr]]:
     if any(residue.factor.degree > 1 or curve.g.field.height > 1 for residue in done.residues):
         return []
     s, root = curve.shown(atoms)
-    x = RatFunc(curve.g.field.poly([0, 1]))
+    x = RatFunc(curve.g.field.x)
     quadratic = curve.g // x.num
     # w as sqrt(s) (1 + s) sqrt(1 - m sin(phi)^2), for the branches of F and E where s < -1.
     w = root * sqrt(atoms.factored(RatFunc(quadratic, (x.num + 1) ** 2)(s)))
@@ -419,7 +419,7 @@ class _Angle:
             n = self.m / n
             rho = -rho
             # 2 w/Q, where w(tau) isn't a factor yet
-            x = RatFunc(self.quadratic.field.poly([0, 1]))
+            x = RatFunc(self.quadratic.field.x)
             Q = (1 + tau) * tau * (1 - x.num) * self.quadratic
             Q = (Q - (tau - 1) * (x.num + 1) * x.num * self.quadratic(tau)) // (x.num * tau - 1)
             z = atoms.factored(((x + 1) * 2 / Q)(self.s)) * self.w

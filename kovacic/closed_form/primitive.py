@@ -91,14 +91,14 @@ def _kernel_rate(E: RatFunc, alpha: Fraction) -> RatFunc:
     """dk/dt over k, for k = t^alpha exp(E)."""
     if not alpha:
         return E.derivative()
-    return E.derivative() + alpha / RatFunc(E.field.poly([0, 1]))
+    return E.derivative() + alpha / RatFunc(E.field.x)
 
 
 def monomial(E: RatFunc) -> tuple[Poly, int, Poly] | None:
     """(beta, n, c) with E = beta x^n + c, or None if E isn't of this form."""
-    x = RatFunc(E.field.poly([0, 1]))
+    x = RatFunc(E.field.x)
     rate = E.derivative() * x  # n beta x^n
-    n = rate.num.degree - rate.den.degree
+    n = rate.degree
     if rate != x**n * rate.num.lc:
         return None
     beta = rate.num.lc / n
@@ -111,12 +111,12 @@ def integrate_exponential(
     """int r x^alpha exp(E) dx, with t in place of x in the result; alpha isn't an integer other than 0.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> done = integrate_exponential((x**2 + 1) / (x * (x**2 - 1)), x - 1 / x)  # Ei(x - 1/x)
     >>> print(done.W, [(str(term.coefficient), str(term.q), term.power) for term in done.terms])
     0 [('1', '(x**2 - 1)/x', -1)]
     """
-    x = RatFunc(r.field.poly([0, 1]))
+    x = RatFunc(r.field.x)
     apart = E.den * x.num if alpha else E.den
     W, reduced, residues = reduce_poles(r, _kernel_rate(E, alpha), apart)
     at_poles = _at_poles(reduced, residues, E, alpha)
@@ -165,13 +165,13 @@ def _exponential_integral(found: Residue, E: RatFunc) -> GammaTerm | None:
     multiplicity = (E - e).num.remove(p)[1] if e.degree <= 0 else 0
     if not multiplicity or not found.is_constant:
         return None
-    one = E.field.poly([1])
+    one = E.field.one
     return GammaTerm(found.value * Fraction(1, multiplicity), E - e, one, e, 1, -1)
 
 
 def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
     """The terms (1) that don't come from poles, with the coefficient 1."""
-    one = E.field.poly([1])
+    one = E.field.one
     if not alpha:
         for e in _limit(E):
             yield GammaTerm(one, E - e, one, e, 1, -1)
@@ -184,8 +184,8 @@ def _gamma_candidates(E: RatFunc, alpha: Fraction) -> Iterator[GammaTerm]:
 
 def _gamma_terms(beta: Poly, n: int, e: Poly, alpha: Fraction) -> Iterator[GammaTerm]:
     """Terms with 0 < s < 1 for E = beta x^n + e; for alpha = 0, s = 0 is Ei, found before, and s = 1/2 an error function."""
-    x = RatFunc(beta.field.poly([0, 1]))
-    one = beta.field.poly([1])
+    x = RatFunc(beta.field.x)
+    one = beta.field.one
     for m in range(-abs(n) - 2 - int(alpha), abs(n) + 2 - int(alpha)):
         s = (m + alpha + 1) / n
         if 0 < s < 1:
@@ -215,13 +215,13 @@ def _with_rational_part(
     r: RatFunc, E: RatFunc, alpha: Fraction, candidates: list[RatFunc]
 ) -> tuple[RatFunc, list[Poly]] | None:
     """(W, constants), r = W' + W (E' + alpha/x) + the sum of constants times candidates, or None."""
-    x = r.field.poly([0, 1])
+    x = r.field.x
     rate = _kernel_rate(E, alpha)
     functions = [f for f in (r, *candidates) if f]
     den = _denominator(functions, E, alpha)
     # A bound of deg num - deg den for W, from what W' + W E' gives.
-    growth = max((f.num.degree - f.den.degree for f in functions), default=0)
-    at_infinity = E.num.degree - E.den.degree
+    growth = max((f.degree for f in functions), default=0)
+    at_infinity = E.degree
     most = growth - at_infinity + 1 if at_infinity > 0 else max(growth + 1, 0)
     basis = [RatFunc(x**j, den) for j in range(most + den.degree + 1)]
     images = [w.derivative() + w * rate for w in basis] + candidates
@@ -229,14 +229,14 @@ def _with_rational_part(
     found = combination(wanted, numerators)
     if found is None:
         return None
-    W = sum((w * c for w, c in zip(basis, found, strict=False)), RatFunc(r.field.poly([])))
+    W = sum((w * c for w, c in zip(basis, found, strict=False)), RatFunc(r.field.zero))
     return W, found[len(basis) :]
 
 
 def _denominator(functions: list[RatFunc], E: RatFunc, alpha: Fraction) -> Poly:
     """The denominator of W: a pole of order m of E raises the order of a pole of W by m + 1, and a factor x^alpha by 1."""
-    den = E.field.poly([1])
-    of_root = [(E.field.poly([0, 1]), 0)] if alpha and E.den[0] else []
+    den = E.field.one
+    of_root = [(E.field.x, 0)] if alpha and E.den[0] else []
     for p, m in (*E.field.factor(E.den), *of_root):
         order = max((f.den.remove(p)[1] for f in functions), default=0)
         den = den * p ** max(order - m - 1, 0)
@@ -287,7 +287,7 @@ def integrate(h: Product) -> Primitive:
 
     >>> from kovacic.algebra.rationals import QQ
     >>> from kovacic.closed_form.product import product
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> y = product(-x / 2, QQ.poly([0, -3, 0, 1]))  # (x^3 - 3 x) exp(-x^2/4)
     >>> done = integrate(y.to_power(-2))
     >>> print(done.W, [(str(term.coefficient), term.n, term.power) for term in done.terms])
@@ -295,7 +295,7 @@ def integrate(h: Product) -> Primitive:
     """
     if h.roots:
         return OpenPrimitive(f"the exponents at the roots of {h.roots[0].factor} are different algebraic numbers")
-    rational = RatFunc(h.field.poly([1]))
+    rational = RatFunc(h.field.one)
     fractional: list[_Root] = []
     for power in h.powers:
         exponent = power.rational_exponent
@@ -322,13 +322,13 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
     if not fractional:
         return RationalPrimitive(decompose(rational))
     if all(alpha.denominator == 2 for _, alpha in fractional):
-        g = rational.field.poly([1])  # on s^2 = g, g the product of the radicands
+        g = rational.field.one  # on s^2 = g, g the product of the radicands
         for p, alpha in fractional:
             g = g * p
             rational = rational * RatFunc(p) ** int(alpha + Fraction(1, 2))
         return completed(integrate_on_curve(rational, g))
     if all(p.degree == 1 for p, _ in fractional) and len(fractional) <= 2:
-        first, second = (*fractional, (rational.field.poly([1]), -fractional[0][1]))[:2]
+        first, second = (*fractional, (rational.field.one, -fractional[0][1]))[:2]
         if (first[1] + second[1]).denominator == 1:
             return _with_a_quotient(rational, first, second)
     return OpenPrimitive("it is an incomplete beta integral, with fractional powers of several factors")
@@ -340,7 +340,7 @@ def _with_a_quotient(rational: RatFunc, first: _Root, second: _Root) -> Primitiv
     x = RatFunc(p.field.poly([-p[0], q[0]]), p.field.poly([1, -q[1]]))  # t (q_1 x + q_0) = x + p_0
     r = rational(x) * RatFunc(q)(x) ** int(alpha + beta) * x.derivative()
     shift = floor(alpha) + 1  # to an exponent between -1 and 0
-    t = RatFunc(p.field.poly([0, 1]))
+    t = RatFunc(p.field.x)
     return integrate_exponential(r * t**shift, r * 0, alpha - shift, RatFunc(p, q))
 
 
@@ -356,11 +356,9 @@ def _exponential_primitive(r: RatFunc, fractional: list[_Root], E: RatFunc) -> P
 
 def _centre(fractional: list[_Root], E: RatFunc) -> Poly:
     """The zero of the root, else the mean of the poles, or of the zeros of a polynomial."""
-    below = E.num if E.is_polynomial else E.den
     if fractional:
-        below = fractional[0][0]
-    n = below.degree
-    return -below[n - 1] / (below.lc * n)
+        return fractional[0][0].mean_of_zeros
+    return (E.num if E.is_polynomial else E.den).mean_of_zeros
 
 
 def normalised_constant(exact: RatFunc) -> RatFunc:

@@ -94,7 +94,7 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
     `zeros` may have many roots, and is kept as one factor unless it shares one with the rest.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> y = product(x + 1 / (3 * x), QQ.poly([-3, 0, 1]))
     >>> print([(str(f.base), str(f.exponent)) for f in y.powers], y.exponential)
     [('x', '1/3'), ('x**2 - 3', '1')] x**2/2
@@ -109,7 +109,7 @@ def product(logarithmic_derivative: RatFunc, zeros: Poly | None = None) -> Produ
             rest, count = rest.remove(power.base)
             powers[i] = Power(power.base, power.exponent + count)
         if rest.degree > 0:
-            powers.append(Power(rest, rest.field.poly([1])))
+            powers.append(Power(rest, rest.field.one))
     return Product(tuple(power for power in powers if power.exponent), roots, parts.exact)
 
 
@@ -143,7 +143,7 @@ def merged(y: Product, extra: RatFunc | None = None, *, like: Product | None = N
         if exponent:
             found.append(Factor(power.base, exponent, keys.get(power.base, exponent)))
     if rest is not None:
-        one = y.field.poly([1])
+        one = y.field.one
         found += [Factor(rest.num, one, one), Factor(rest.den, -one, -one)]
     return found
 

@@ -31,7 +31,7 @@ from fractions import Fraction
 from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import Decomposition, decompose
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.closed_form.curve import CurveIntegral, Unit, completed, gathered_zeros, integrate_on_curve
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
@@ -223,7 +223,7 @@ def curve_of_pair(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]
     field = phi.field
     square = (4 * S - 2 * phi.derivative() - phi * phi) * Fraction(1, 4)
     # (y1 y2)^2 is rational: a constant times h^2 g with known factors.
-    g = field.poly([1])
+    g = field.one
     h = RatFunc(semi.P)
     for residue in decompose(semi.theta * 2).residues:
         exponent = int(residue.rational or 0)
@@ -232,7 +232,3 @@ def curve_of_pair(S: RatFunc, semi: SemiInvariant) -> tuple[Poly, RatFunc, Poly]
             g = g * residue.factor
     # r = 1/h has h' numerator and denominator monic, so that kappa alone carries the constant.
     return g, 1 / h, (square * RatFunc(g) * h * h).num
-
-
-def logarithmic_derivative(polynomial: Poly) -> RatFunc:
-    return RatFunc(polynomial.derivative(), polynomial)

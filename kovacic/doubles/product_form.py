@@ -26,7 +26,7 @@ import numpy as np
 from flint import acb
 
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import logarithmic_derivative
 from kovacic.doubles.chart import PRECISION, Measured, Region, facts, in_blocks
 from kovacic.doubles.double_double import (
     LOG_2,
@@ -159,7 +159,7 @@ class ProductForm:
         theta = self.branch.theta
         P = self.branch.P
         D = theta.den
-        slope = replace(self.branch, theta=theta - RatFunc(D.derivative(), D), P=theta.num * P + D * P.derivative())
+        slope = replace(self.branch, theta=theta - logarithmic_derivative(D), P=theta.num * P + D * P.derivative())
         with working_precision(PRECISION):
             found = form_of(slope, self.region, self.base)
             if found is None:

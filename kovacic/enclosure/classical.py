@@ -42,7 +42,7 @@ from kovacic.special.search import SEARCH_WORK, find
 
 _LEG_BITS = 64  # in which the course of a leg is proven
 _MOST_FROM_ZERO = 2_000  # digits up to which the functions cost less than the series at a singular point (measured)
-_NO_GAUGE = RatFunc(QQ.poly([]))
+_NO_GAUGE = RatFunc(QQ.zero)
 # Parameters up to which a call of FLINT, which can't be stopped, is short: at 2,000 bits 0.03 s, and 1.7 s for 10,000
 _LARGEST_PARAMETER = 1_000
 

@@ -23,7 +23,7 @@ from kovacic.algebra.extension import AlgebraicField
 from kovacic.algebra.partial_fractions import decompose
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.precision import working_precision
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.decision import SemiInvariant
 from kovacic.enclosure.frame import check_segment
 from kovacic.enclosure.log_derivative import LogDerivative, conjugates, embed, log_derivative, sharp_roots
@@ -104,7 +104,7 @@ class CaseOneForm:
         if square is not None and theta.field == square.theta.field:
             # y1 y2 is the invariant: y2 has the rest of theta and of the zeros, unless the invariant is y1^2.
             zeros = square.P.exact_quotient(P)
-            if zeros is not None and square.logarithmic_derivative != 2 * (theta + RatFunc(P.derivative(), P)):
+            if zeros is not None and square.logarithmic_derivative != 2 * (theta + logarithmic_derivative(P)):
                 return self.first, Exponential(square.theta - theta, zeros)
         return (self.first, *self._companion())
 
@@ -125,7 +125,7 @@ class CaseOneForm:
             return ()
         # y2 = y1 R with R = int y1^-2, so P R in place of P; its denominator goes into theta.
         factor = inverse.exact * P
-        return (Exponential(theta - RatFunc(factor.den.derivative(), factor.den), factor.num),)
+        return (Exponential(theta - logarithmic_derivative(factor.den), factor.num),)
 
     def __str__(self) -> str:
         return f"the closed form of case 1, with a polynomial of degree {self.first.P.degree}"

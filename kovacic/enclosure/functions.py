@@ -140,7 +140,7 @@ def in_the_given_variable(equation: Equation) -> Coefficients:
         slope = rate
         b *= RatFunc(field.poly([1, 0, 1]))
     if t.func is sympy.exp and t.has(sympy.I):
-        T = RatFunc(field.poly([0, 1]))
+        T = RatFunc(field.x)
         p, q, r = _wave_quotient(t, b * T, rate), _wave_quotient(t, c, rate**2), _wave_quotient(t, f, rate**2)
     else:
         p, q, r = slope * _in_t(t, b), rate**2 * _in_t(t, c), rate**2 * _in_t(t, f)
@@ -216,7 +216,7 @@ def _in_sines(u: Any, function: RatFunc, atoms: Atoms) -> Any:
         terms = (c * sine**k * cosine ** (n - k) for k, c in enumerate(atoms.coefficients(poly)) if c != 0)
         return _by_waves(sympy.Poly(sympy.Add(*terms), e).all_coeffs()[::-1], n, u)
 
-    n = function.den.degree - function.num.degree
+    n = -function.degree
     return homogeneous(function.num) / homogeneous(function.den) * sympy.cos(u) ** n
 
 

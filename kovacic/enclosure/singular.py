@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 from flint import acb, acb_poly, arb, arb_poly, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
-from kovacic.algebra.embedding import complex_zeros
+from kovacic.algebra.embedding import complex_zeros, root_near
 from kovacic.algebra.precision import working_precision
 from kovacic.enclosure.points import ExactPoint, midpoint, to_acb
 from kovacic.enclosure.problem import NumericProblem
@@ -92,9 +92,7 @@ class Singular:
         if self.exact:
             return here
         # The zero of the minimal polynomial next to `near`.
-        return min(
-            (root for root, _ in complex_zeros(self.minimal.numer())), key=lambda root: float(abs(root - here).mid())
-        )
+        return root_near(self.minimal.numer(), here)
 
     def is_at(self, x: ExactPoint) -> bool:
         """True if x is provably this point."""

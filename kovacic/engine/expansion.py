@@ -107,7 +107,7 @@ def _local_coefficients(
     problem: Problem, place: Place | None, valuations: Sequence[int]
 ) -> tuple[Any, Any, Any, Fraction | int]:
     """D, R, T as integer polynomials in the coordinate of the place, t = x - point or t = 1/x; and the point."""
-    t = QQ.poly([0, 1])
+    t = QQ.x
     point: Fraction | int = 0
     pairs: list[tuple[Poly, int, int]]
     if place is not None and place.at_infinity:
@@ -121,8 +121,8 @@ def _local_coefficients(
         pairs = [(p.factor(t + point), v, p.weight) for p, v in finite]
         num = problem.S.num(t + point)
         den = problem.S.den(t + point)
-    D = product([QQ.poly([1]), *(factor**weight for factor, _, weight in pairs)])
-    R = sum((v * (D // factor) * factor.derivative() for factor, v, _ in pairs), QQ.poly([]))
+    D = product([QQ.one, *(factor**weight for factor, _, weight in pairs)])
+    R = sum((v * (D // factor) * factor.derivative() for factor, v, _ in pairs), QQ.zero)
     T = num * (D * D // den)
     scale = lcm(*(f.content()[1] for f in (D, R, T)))
     return (D * scale).rep.numer(), (R * scale).rep.numer(), (T * scale**2).rep.numer(), point  # type: ignore[attr-defined]

@@ -34,7 +34,7 @@ class SingularPoint:
 
     def factor(self, field: Field) -> Poly:
         """x - c, or the polynomial of conjugate poles that are taken together, over an extension of the field."""
-        return self.place.factor.over(field) if self.at is None else field.poly([0, 1]) - self.at
+        return self.place.factor.over(field) if self.at is None else field.x - self.at
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ def families(
     choices: Sequence[Sequence[Choice]], points: Sequence[SingularPoint], m: int, field: Field
 ) -> list[tuple[tuple[Choice, ...], ExactNumber]]:
     """Step 2: all families, each with its d; conjugate poles that are taken together have equal exponents."""
-    zero: ExactNumber = field.poly([]) if m == 1 else 0
+    zero: ExactNumber = field.zero if m == 1 else 0
     found: list[tuple[tuple[Choice, ...], ExactNumber]] = [((), zero)]
     for point, chosen in zip(points, choices, strict=True):
         check_time()
@@ -149,8 +149,8 @@ def theta_numerator(
     D: Poly, points: Sequence[SingularPoint], choices: Sequence[Choice], scale: Fraction | int = 1
 ) -> Poly:
     """D theta for one choice at each point, infinity first: residues `scale` times the exponents, and the singular parts."""
-    x = D.field.poly([0, 1])
-    R = D.field.poly([])
+    x = D.field.x
+    R = D.field.zero
     at_infinity, *at_poles = choices
     for choice, point in zip(at_poles, points[1:], strict=True):
         f = point.factor(D.field)

@@ -108,7 +108,7 @@ def _tetrahedral(problem: Problem, F: Form) -> Form:
     n = max(first.degree, second.degree)
     rest = left * first[n] - first * left[n]
     pattern = second * first[n] - first * second[n]
-    b = rest.lc / pattern.lc if rest else problem.field.poly([])
+    b = rest.lc / pattern.lc if rest else problem.field.zero
     if not b or rest != pattern * b:
         raise AssertionError("T^2 = a H^3 + b F^4 holds for the tetrahedral group")
     return root_of_form(Form(12, T.R, T.P + adjoined_square_root(problem.field, b) * G), 3, problem)

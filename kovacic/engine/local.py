@@ -33,7 +33,7 @@ from kovacic.algebra.modular import (
 )
 from kovacic.algebra.partial_fractions import reduce_poles
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.algebra.traces import is_provably_not_a_square, largest_integer_total, power_sums
 from kovacic.decision import Evidence, NecessaryCondition, NoRationalOmega, Rule
@@ -126,7 +126,7 @@ def trace_of_square_root(square: Poly, p: Poly) -> Poly | None:
     root = root_in_residue_field(square, p, 2)
     if root is None:
         return None
-    return sum((root[i] * total for i, total in enumerate(power_sums(p))), p.field.poly([]))
+    return sum((root[i] * total for i, total in enumerate(power_sums(p))), p.field.zero)
 
 
 def irregular_difference_squared(place: Place) -> Poly:
@@ -144,7 +144,7 @@ def irregular_difference_squared(place: Place) -> Poly:
     if p.degree == 1:
         residue = root(p.field.poly([-p[0], 1]))[nu - 1]
     else:
-        _, _, residues = reduce_poles(RatFunc(root, power), RatFunc(v.derivative(), v) / -2, v)
+        _, _, residues = reduce_poles(RatFunc(root, power), logarithmic_derivative(v) / -2, v)
         residue = residues[0].value if residues else 0 * v
     return 4 * residue * residue * v.inverse_modulo(p) % p
 

@@ -207,7 +207,7 @@ def _tried(
 
 def _outcome(D: Poly, T: Poly, points: Sequence[SingularPoint], m: int, family: Family, d: int, x: Any) -> Family:
     """The family with theta, and with P or the conditions for its existence."""
-    X = D.field.poly([0, 1])
+    X = D.field.x
     R = theta_numerator(D, points, family.choices, SCALE[m])
     # D^(m+1) L_(m+1) for P = 1, x, x^2, ...
     images = [numerators(D, T, R, X**k, m, m + 1)[-1] * factorial(m + 1) for k in range(d + 1)]

@@ -78,7 +78,7 @@ class Place:
         p = self.factor
         (top, bottom) = self.near
         if self.order != 2:
-            return p.field.poly([1]) if self.order < 2 else None
+            return p.field.one if self.order < 2 else None
         if p.degree > 1:
             bottom = p.derivative() ** 2 * bottom % p
         b = top[bottom.degree] / bottom.lc
@@ -193,7 +193,7 @@ class Problem:
 
     @cached_property
     def D(self) -> Poly:
-        return product([self.field.poly([1]), *(place.factor**place.weight for place in self.finite_places)])
+        return product([self.field.one, *(place.factor**place.weight for place in self.finite_places)])
 
     @cached_property
     def T(self) -> Poly:
@@ -204,7 +204,7 @@ def analyse(S: RatFunc, budget: Budget) -> Problem:
     """The singular places of y'' = S y and their local data."""
     factors = S.field.factor(S.den)
     num, den, order = at_infinity(S)
-    infinity = (S.field.poly([0, 1]), order)
+    infinity = (S.field.x, order)
     places = []
     for above, below, found, at_end in ((S.num, S.den, factors, False), (num, den, [infinity], True)):
         for (p, k), near in zip(found, expansions(above, below, found), strict=True):
@@ -216,7 +216,7 @@ def at_infinity(S: RatFunc) -> tuple[Poly, Poly, int]:
     """Numerator and denominator of S(1/z)/z^4, and the order of its pole at z = 0."""
     field = S.field
     if not S.num:
-        return S.num, field.poly([1]), 0
+        return S.num, field.one, 0
     order = S.degree + 4
     return S.num.reversed(max(-order, 0)), S.den.reversed(max(order, 0)), max(order, 0)
 

@@ -178,7 +178,7 @@ def _omegas_of_low_degree(problem: Problem) -> list[Form]:
     ):
         roots = Roots(problem.field)
         choices = first_case_choices(place, roots) or ()
-        exponents = [problem.field.poly([1]) * c.value for c in choices] if roots.field == problem.field else []
+        exponents = [problem.field.one * c.value for c in choices] if roots.field == problem.field else []
         if exponents and len(set(exponents)) == len(exponents):
             # At infinity a power of x, whose exponent e is that of (1/x)^(1 - e) in the chart.
             found = [_of_exponent(problem, place, 1 - e if place.at_infinity else e) for e in exponents]

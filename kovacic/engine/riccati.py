@@ -127,7 +127,7 @@ def jacobian(f: Form, g: Form, problem: Problem) -> Form:
 def singular_part(problem: Problem, valuations: Sequence[int]) -> Poly:
     """R0 with Q0'/Q0 = R0/D for Q0 = prod p^(v_p)."""
     pairs = zip(problem.finite_places, valuations, strict=True)
-    return sum((v * (problem.D // p.factor) * p.factor.derivative() for p, v in pairs), problem.field.poly([]))
+    return sum((v * (problem.D // p.factor) * p.factor.derivative() for p, v in pairs), problem.field.zero)
 
 
 def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
@@ -136,7 +136,7 @@ def singular_factor(problem: Problem, R: Poly, power: int) -> Poly:
         place.factor ** (power * place.weight - logarithmic_residue(problem, R, place))
         for place in problem.finite_places
     )
-    return product([problem.field.poly([1]), *parts])
+    return product([problem.field.one, *parts])
 
 
 def logarithmic_residue(problem: Problem, R: Poly, place: Place) -> int:

@@ -97,7 +97,7 @@ def search_series(problem: Problem) -> SeriesSearch | None:
 
 def recurrence_about(centre: Poly, S: RatFunc, theta: RatFunc) -> TwoTerms | None:
     """That of P'' + 2 theta P' + (theta' + theta^2 - S) P = 0 in powers of x - centre; None for more terms than two."""
-    x = theta.field.poly([0, 1])
+    x = theta.field.x
     one = RatFunc(x**0)
     parts = over_one_denominator([one, 2 * theta, theta.derivative() + theta * theta - one * S])
     return TwoTerms.of(*(part(x + centre) for part in parts))
@@ -110,7 +110,7 @@ def _possible_centres(problem: Problem, theta: RatFunc) -> Iterator[Poly]:
     yield from (-p[0] for p in poles if p.degree == 1)
     whole = D if poles else theta.num
     if whole.degree > 0:
-        yield -whole[whole.degree - 1] / (whole.degree * whole.lc)
+        yield whole.mean_of_zeros
     for p in poles:
         if p.degree > 1 and theta.field != D.field:
             yield from (-q[0] for q, _ in theta.field.factor(p.over(theta.field)) if q.degree == 1)

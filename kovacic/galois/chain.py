@@ -90,7 +90,7 @@ def function_of_order(H: RatFunc, k: int) -> CurveFunction | None:
     pieces = _doubled(model, multiples)
     if pieces is None:
         return None
-    slope = RatFunc(H.field.poly([]))
+    slope = RatFunc(H.field.zero)
     for piece in pieces:
         slope = slope + logarithmic_slope(piece.a, piece.b, model.h) * piece.exponent
     rest = model.s * model.h * (k * l) - slope
@@ -116,7 +116,7 @@ def model_of(H: RatFunc) -> Model:
     shifted = [f(field.poly([r, 1])) for f in (H.num, H.den)]
     top = max(f.degree for f in shifted)
     num, den = (f.reversed(top - f.degree) for f in shifted)
-    t = field.poly([0, 1])
+    t = field.x
     moved = RatFunc(num, den * t**4)  # dx = -dt/t^2
     h, s = _squarefree_part(moved)
     double = [q for q, multiplicity in field.factor(moved.den) if multiplicity == 2]
@@ -127,7 +127,7 @@ def _squarefree_part(H: RatFunc) -> tuple[Poly, RatFunc]:
     """h and s with H = h s^2, h squarefree."""
     field = H.field
     h = H.num.lc
-    s = RatFunc(field.poly([1]))
+    s = RatFunc(field.one)
     for f, sign in ((H.num, 1), (H.den, -1)):
         for q, multiplicity in field.factor(f):
             odd = multiplicity % 2
@@ -167,7 +167,7 @@ def _in_x(model: Model, f: CurveFunction) -> CurveFunction:
 
 def _doubled(model: Model, multiples: list[int]) -> list[Piece] | None:
     """The pieces of a function with the divisor sum N_P P, up to functions of x alone; None if none was found."""
-    one = model.h.field.poly([1])
+    one = model.h.field.one
     total = Divisor(one, one * 0)
     pieces: list[Piece] = []
     for digit in reversed(range(max(multiples).bit_length())):
@@ -258,6 +258,6 @@ def _shortest_pair(first: tuple[Poly, Poly], second: tuple[Poly, Poly]) -> tuple
 def _power_basis(field: Field) -> list[Poly]:
     """A basis over Q of a number field, as constants."""
     if not isinstance(field, AlgebraicField):
-        return [field.poly([1])]
+        return [field.one]
     below = [field.embed(c) for c in _power_basis(field.base)]
     return [c * field.generator**k for k in range(field.dimension) for c in below]

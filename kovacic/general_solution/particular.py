@@ -152,7 +152,7 @@ def _polynomial_solution(equation: Equation, right: RatFunc | None) -> Poly | No
     whole = RatFunc(right.num.over(field), right.den.over(field), reduced=True) * equation.a
     denominators = equation.a.den * equation.b.den * equation.c.den * whole.den
     a, b, c, f = ((value * denominators).num for value in (equation.a, equation.b, equation.c, whole))
-    x = field.poly([0, 1])
+    x = field.x
     highest = max(f.degree - min(p.degree for p in (a, b, c) if p), 0) + 2
     powers: list[Any] = [x**k for k in range(highest + 1)]
     found = combination(f, [a * p.derivative().derivative() + b * p.derivative() + c * p for p in powers])

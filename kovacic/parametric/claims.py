@@ -383,7 +383,7 @@ class IntegerFamily(ForInteger):
         """The solutions n of value(n) = parameter, and the poles at which the condition holds."""
         for pole in self.poles:
             if not point.at(pole.zero):
-                yield from self.numbers.roots_of(point.field.poly([0, 1]) - point.at(pole.root))
+                yield from self.numbers.roots_of(point.field.x - point.at(pole.root))
         above, below = map(point.at, self.value.cleared())
         numbers = self.numbers.roots_of(above - below * point.values[point.names.index(self.parameter)])
         yield from (number for number in numbers if below(point.field.poly([number])))
@@ -412,10 +412,10 @@ def rational_roots(polynomial: Poly) -> list[Fraction]:
 
 def signed_sums(squares: Sequence[Poly], constant: Poly | Fraction, field: Field) -> Poly:
     """The squarefree polynomial over the field whose roots are the constant plus sums of +- the square roots."""
-    total = field.poly([0, 1]) - constant
+    total = field.x - constant
     for square in squares:
         root = AlgebraicField(field, field.poly([-square, 0, 1])).generator  # formally, if there is one in the field
-        total = norm(total(root.field.poly([0, 1]) + root))
+        total = norm(total(root.field.x + root))
         total = total // total.gcd(total.derivative())
     return total
 

@@ -283,7 +283,7 @@ class ChosenExponents:
     @property
     def degree(self) -> Poly:
         """The degree of P, by Fuchs' relation."""
-        return 1 - sum((part.exponent for part in self.parts), self.field.poly([]))
+        return 1 - sum((part.exponent for part in self.parts), self.field.zero)
 
     @property
     def operator(self) -> tuple[Poly, Poly, Poly]:
@@ -435,7 +435,7 @@ def with_points_apart(problem: Problem) -> Problem | None:
 
 def _at_infinity(place: Place, S: RatFunc) -> Poly:
     """The polynomial part of z S(z), where v'' = S(z) v is the equation in a coordinate in which the place is infinity."""
-    x = S.field.poly([0, 1])
+    x = S.field.x
     if not place.at_infinity:  # v(z) = z y(c + 1/z)
         S = S(RatFunc(1 - place.factor[0] * x, x)) / RatFunc(x**4)
     return S.num * x // S.den
@@ -443,7 +443,7 @@ def _at_infinity(place: Place, S: RatFunc) -> Poly:
 
 def _parts_at(place: Place, S: RatFunc, root: Poly) -> list[LocalPart]:
     """The two local parts of theta; one if the exponents are equal."""
-    x = root.field.poly([0, 1])
+    x = root.field.x
     factor = None if place.at_infinity else place.factor.over(root.field)
     if place.kind is Kind.REGULAR:
         signs = (1, -1) if root else (1,)
@@ -467,7 +467,7 @@ def form_conditions(problem: Problem, m: int) -> RankConditions:
     if bound is None:
         return RankConditions()
     valuations, N = bound
-    x = problem.field.poly([0, 1])
+    x = problem.field.x
     R0 = singular_part(problem, valuations[:-1])
     images = [Form(m, R0, x**j).numerators(problem)[-1] for j in range(N + 1)]
     return replace(rank_conditions(images, problem.field), deficient=False)

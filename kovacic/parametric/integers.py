@@ -15,11 +15,11 @@ of the value, or on a hypersurface of the other parameters, whatever n is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, reduce
-from itertools import chain, count, product
+from itertools import product
 from math import ceil, floor, lcm
 from operator import mul
 from random import Random
@@ -66,7 +66,7 @@ from kovacic.parametric.claims import (
 from kovacic.parametric.formulas import shortest_form
 from kovacic.parametric.restriction import everywhere, with_free_constant
 from kovacic.parametric.statements import ALWAYS, NEVER, Setting, Statement, Vanishes, all_of, either, reduced_statement
-from kovacic.writing.formula import text_of_words
+from kovacic.writing.formula import free_name, text_of_words
 
 
 class Stratum(NamedTuple):
@@ -172,7 +172,7 @@ def _roots_as_sum(equation: FunctionPoly, numbers: Classes, constant: ParameterP
         return None
     field = equation.field
     with_constant = everywhere(field, constant).at(equation)  # over Q(t)(alpha), in which more elements are squares
-    mean = -with_constant[equation.degree - 1] / (with_constant.lc * equation.degree)
+    mean = with_constant.mean_of_zeros
     squares = squares_of_roots(with_constant(mean.field.poly([0, 1]) + mean) / with_constant.lc)
     if squares is None:
         return None
@@ -315,7 +315,7 @@ class Congruence(Statement):
 
     @property
     def letter(self) -> str:
-        return free_letter(self.setting.names)
+        return free_name(self.setting.names, *INTEGER_LETTERS)
 
     @cached_property
     def claim(self) -> Claim:
@@ -376,11 +376,6 @@ def at_integers(form: FunctionPoly, largest: int, assumptions: Assumptions) -> l
         return None
     values = ((Vanishes(t - n), (a * n + b) / (c * n + d)) for n in range(-end, end + 1) if c * n + d)
     return [(n, value) for n, value in values if value.denominator <= largest and n.under(assumptions) != NEVER]
-
-
-def free_letter(names: Collection[str], preferred: str = INTEGER_LETTERS) -> str:
-    """A name for an integer that differs from these names."""
-    return next(letter for letter in chain(preferred, map("n{}".format, count())) if letter not in names)
 
 
 def integer_roots(equation: Poly, numbers: Classes) -> Statement:

@@ -59,11 +59,12 @@ from kovacic.parametric.exponents import (
     zeros_of_forms,
 )
 from kovacic.parametric.formulas import expanded_form, in_sum
-from kovacic.parametric.integers import free_letter, natural_root
+from kovacic.parametric.integers import natural_root
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, everywhere, hypersurface, in_lowest_powers
 from kovacic.parametric.solutions import PolynomialSolution, solution_of_degree
 from kovacic.parametric.statements import NEVER, Setting, Statement
+from kovacic.writing.formula import free_name
 
 #: The largest d for which the determinants of conditions with a natural number d are computed unasked, and sampled.
 DEFAULT_DEGREE = 2
@@ -123,7 +124,7 @@ class Natural(Statement):
 
     @property
     def letter(self) -> str:
-        return free_letter(self.setting.names, "dnmkjl")  # no N, the set
+        return free_name(self.setting.names, *"dnmkjl")  # no N, the set
 
     @property
     def equations(self) -> tuple[FunctionPoly, ...]:
@@ -241,7 +242,7 @@ class Natural(Statement):
             has_zero = self.factors is None or problem.field.poly([-numbers.constant, 1]) in self.factors
             letters = list[str]()
             for _ in () if numbers.only_signs else numbers.roots:
-                letters.append(free_letter([self.letter, *self.setting.names, *letters], "jkmnl"))
+                letters.append(free_name([self.letter, *self.setting.names, *letters], *"jkmnl"))
             degree = DegreeBySum(self.letter, numbers, tuple(letters), has_zero)
         return DegreeExists(self.letter, degree, self.m, self.exists)
 

@@ -23,7 +23,7 @@ from kovacic.errors import InputError
 from kovacic.limits import Limits
 from kovacic.numbers.numerals import as_text, for_json, fraction
 from kovacic.parametric.claims import NO_CONSTANT, Classes, ParameterPoint, over_parameters
-from kovacic.parametric.integers import Congruence, free_letter
+from kovacic.parametric.integers import Congruence
 from kovacic.parametric.natural import Natural
 from kovacic.parametric.regions import ParameterRegion, RegionVerdict
 from kovacic.parametric.riemann import Schwarz
@@ -32,6 +32,7 @@ from kovacic.reading.arithmetic import VARIABLE, Arithmetic, Value
 from kovacic.reading.constants import Constants
 from kovacic.reading.differential import WrittenReader, written_equation
 from kovacic.reading.expression import parse_with
+from kovacic.writing.formula import free_name
 
 #: Limits that everything written by the package respects.
 _LIMITS = Limits(degree=10**6, bits=10**8, digits=10**7, text_length=10**8, exponent=10**6)
@@ -62,7 +63,7 @@ def statement_data(statement: Statement) -> dict[str, Any]:
         }
     assert isinstance(statement, Natural)
     letter = statement.letter
-    x = free_letter(parameters_of(statement.S.field), "xzt")
+    x = free_name(parameters_of(statement.S.field), *"xzt")
     return {
         "kind": "natural number",
         "unknown": letter,

@@ -120,7 +120,7 @@ def _obstruction(place: Place) -> Poly | None:
     if delta is None or delta not in range(1, SMALL_DEGREE + 1) or place.order != 2 or place.degree > 1:
         return None
     field = place.factor.field
-    t = field.poly([0, 1]) - place.factor[0]
+    t = field.x - place.factor[0]
     num, den = place.num(t), place.den(t)  # den = den_2 t^2 + ...
     series = FieldSeries(field, delta.numerator)
     obstruction = None
@@ -212,7 +212,7 @@ def _is_excluded_by_symmetry(problem: Problem) -> bool:
     solutions y1, y2 is y1 y2 times a rational function, a constant; but y1 y2 has an essential singularity at the other point.
     """
     center = mean_of_singular_points(problem.S)  # the mean of the poles, or of the zeros of a polynomial
-    if center is None or problem.S(2 * center - problem.field.poly([0, 1])) != problem.S:
+    if center is None or problem.S(2 * center - problem.field.x) != problem.S:
         return False
     irregular = (place for place in problem.places if place.kind is Kind.UNRAMIFIED)
     fixed = [one for one in irregular if one.at_infinity or (one.degree == 1 and one.factor[0] == -center)]

@@ -52,12 +52,11 @@ from kovacic.parametric.claims import (
 )
 from kovacic.parametric.exponents import ChosenExponents, exponent_choices
 from kovacic.parametric.formulas import shorter_sum, with_gathered_powers
-from kovacic.parametric.integers import free_letter
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Letters
 from kovacic.reading.change_of_variable import is_in_power, user_variable
 from kovacic.reading.read import read_input
-from kovacic.writing.formula import caret, text_of_words
+from kovacic.writing.formula import caret, free_name, text_of_words
 
 
 class jacobi(sympy.Function):  # type: ignore[misc]  # noqa: N801
@@ -151,7 +150,7 @@ class PolynomialSolution:
     def __str__(self) -> str:
         """`y = x*exp(x^2/2)*assoc_laguerre(n, 1/2, -x^2) where n is a natural number`."""
         degree = caret(as_text(self.degree))
-        letter = free_letter({symbol.name for symbol in self.y.free_symbols}, "dDNM")
+        letter = free_name({symbol.name for symbol in self.y.free_symbols}, *"dDNM")
         exclusion = self.exclusion(letter)
         if exclusion and not self.degree.is_Symbol:
             degree = f"{letter} = {degree}"

@@ -98,7 +98,7 @@ class Symmetric(NamedTuple):
     def quotient(self, problem: Problem) -> Problem:
         """v'' = S_z v: s^2 S = n^2 z^2 S_z + (n^2 - 1)/4."""
         n = self.coordinate.n
-        z = RatFunc(problem.field.poly([0, 1]))
+        z = RatFunc(problem.field.x)
         return analyse((RatFunc(self.num, self.den) - Fraction(n * n - 1, 4)) / (n * z) ** 2, problem.budget)
 
 
@@ -108,7 +108,7 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
     They are found by the fixed points that a group of Moebius maps can have: the first one is infinity, or a pole.  With it at
     infinity, the other one is the mean of the poles, or of the zeros if there are no poles.
     """
-    x = RatFunc(problem.field.poly([0, 1]))
+    x = RatFunc(problem.field.x)
     rational_poles = [-place.factor[0] for place in problem.finite_places if place.degree == 1]
     for pole in (None, *rational_poles):
         S, base, weight = problem.S, variable, "1"
@@ -131,7 +131,7 @@ def symmetries(problem: Problem, variable: str) -> Iterator[Symmetric]:
 def mean_of_singular_points(S: RatFunc) -> Poly | None:
     """The mean of the poles, or of the zeros of a polynomial; None for a constant."""
     points = S.den if S.den.degree else S.num
-    return None if points.degree < 1 else -points[points.degree - 1] / (points.lc * points.degree)
+    return None if points.degree < 1 else points.mean_of_zeros
 
 
 def kimura_theorem(problem: Problem, variable: str) -> Theorem | None:
@@ -247,7 +247,7 @@ def _positive_difference(z: Any, c: Any) -> Any:
 
 def _with_denominators(problem: Problem, denominators: tuple[int, ...]) -> Statement:
     """The statement that the exponent differences at 0, at infinity and at the third point have these denominators."""
-    squares = [problem.field.poly([1])] * 3
+    squares = [problem.field.one] * 3
     for place in singular_places(problem):
         third = 2 if place.factor[0] else 0
         squares[1 if place.at_infinity else third] = place.difference_squared

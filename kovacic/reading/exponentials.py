@@ -193,7 +193,7 @@ class _ThetaEquation:
     @property
     def monic(self) -> Monic:
         """With derivatives by T."""
-        T = RatFunc(self.P.field.poly([0, 1]))
+        T = RatFunc(self.P.field.x)
         return (self.P + 1) / T, self.Q / T**2, self.F / T**2
 
 
@@ -209,7 +209,7 @@ def _best(equation: Equation, k: Any, x: Any) -> _InVariable:
         if i is None and not isinstance(field, AlgebraicField):  # an algebraic field isn't extended
             field = AlgebraicField(field, field.poly([1, 0, 1]), "I")
             i = field.generator
-    T = RatFunc(field.poly([0, 1]))
+    T = RatFunc(field.x)
     p, q, f = (over(part / equation.a, field) for part in (equation.b, equation.c, equation.f))
     form = _ThetaEquation(p * T - 1, q * T * T, f * T * T)
     g = form.step
@@ -240,7 +240,7 @@ def _preference(angles: list[Any], found: _InVariable) -> tuple[bool, int, bool]
     # in the normal form, don't lead to another variable than letters for them.
     poles = p.den * (q.den // p.den.gcd(q.den))
     finite = poles.degree - poles.gcd(poles.derivative()).degree
-    T = RatFunc(p.field.poly([0, 1]))
+    T = RatFunc(p.field.x)
     is_ordinary = _order_at_infinity(p * T - 2) > 0 and _order_at_infinity(q) > 3
     places = finite + (not is_ordinary)
     is_real = function.func in (sympy.cos, sympy.sin) and function.args[0] in angles
@@ -260,7 +260,7 @@ def _in_moebius_variable(equation: Monic, M: RatFunc) -> Monic:
 
 def _invariant_form(form: _ThetaEquation, sign: int) -> Monic | None:
     """The equation in w = (T + sign/T)/2, where it is invariant under T -> sign/T; theta w is (T - sign/T)/2."""
-    T = RatFunc(form.P.field.poly([0, 1]))
+    T = RatFunc(form.P.field.x)
     found = []
     for part in (form.P * (T * T - sign) / (2 * T), form.Q, form.F):
         n0, n1 = _modulo_quadratic(part.num, sign)
@@ -275,8 +275,8 @@ def _invariant_form(form: _ThetaEquation, sign: int) -> Monic | None:
 
 def _modulo_quadratic(poly: Poly, sign: int) -> tuple[RatFunc, RatFunc]:
     """(low, high) with poly = low + high T modulo T^2 - 2 w T + sign, by Horner's rule: functions of w."""
-    w = RatFunc(poly.field.poly([0, 1]))
-    low = high = RatFunc(poly.field.poly([]))
+    w = RatFunc(poly.field.x)
+    low = high = RatFunc(poly.field.zero)
     for power in range(poly.degree, -1, -1):
         # (low + high T) T + coefficient
         low, high = poly[power] - high * sign, low + 2 * w * high

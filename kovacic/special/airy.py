@@ -37,7 +37,7 @@ class Airy(StandardEquation):
 
     @property
     def S(self) -> RatFunc:
-        return RatFunc(self.q.field.poly([0, 1]) * self.q)
+        return RatFunc(self.q.field.x * self.q)
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:

@@ -76,13 +76,13 @@ class Bessel(StandardEquation):
 
     @property
     def S(self) -> RatFunc:
-        z = self.M.field.poly([0, 1])
+        z = self.M.field.x
         return RatFunc(z * z * self.q - z * self.r + self.M, z * z)
 
     @classmethod
     def candidates(cls, problem: Problem, *, extended: bool, shifted: bool = False) -> Iterator[Pullback]:
         places = irregular_places(problem)
-        zero = problem.field.poly([])
+        zero = problem.field.zero
         found: Iterable[tuple[RatFunc, Poly]] = ()
         if all(place.order % 2 for place in places):
             found = zeros(problem, sum((square(place) for place in places), RatFunc(zero)), shifted=shifted)
@@ -145,7 +145,7 @@ class Bessel(StandardEquation):
 
 def _by_zeros(problem: Problem, irregular: list[Place]) -> Iterator[tuple[RatFunc, Poly]]:
     """f and nu^2 for r = 1: f is a constant times the product of its zeros, by their multiplicities, over that of its poles."""
-    one = problem.field.poly([1])
+    one = problem.field.one
     poles = prod((place.factor ** (place.order - 2) for place in irregular if not place.at_infinity), start=one)
     n = sum((place.order - 2) * place.degree for place in irregular)
     points = regular_points(problem)

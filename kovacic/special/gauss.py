@@ -92,7 +92,7 @@ class Gauss(StandardEquation):
 
     @property
     def S(self) -> RatFunc:
-        z = self.A.field.poly([0, 1])
+        z = self.A.field.x
         w = z - 1
         A, B, C = self.A, self.B, self.C
         return RatFunc(w * w * (A - 1) + z * z * (B - 1) + z * w * (1 - A - B + C), z * z * w * w * 4)

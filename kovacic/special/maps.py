@@ -132,7 +132,7 @@ def integral_of_square_root(place: Place, q: Poly) -> PolarPart | None:
     if s is None:
         return None
     parts = decompose(RatFunc(s, p**m))
-    residue = parts.residues[0].value if parts.residues else s.field.poly([])
+    residue = parts.residues[0].value if parts.residues else s.field.zero
     return None if residue.degree > 0 else PolarPart(as_function_of_x(parts.exact, place), m - 1, residue)
 
 
@@ -179,7 +179,7 @@ def as_function_of_x(function: RatFunc, place: Place) -> RatFunc:
     if not place.at_infinity:
         return function
     field = function.field
-    return function(RatFunc(field.poly([1]), field.poly([0, 1])))
+    return function(RatFunc(field.one, field.x))
 
 
 # ------------------------------------------------------------------------------------------ scale and constant
@@ -197,7 +197,7 @@ def scales(places: list[Place], n: int) -> list[Poly]:
     place = min(places, key=lambda place: place.degree)
     v = _NTH_ROOTS[n][0](place)
     field = place.num.field
-    one = field.poly([1])
+    one = field.one
     if place.degree == 1:
         return [v[0]] if root_of_constant(v[0], n) is None else [one]
     scales = [one] if n == 3 else [one, -one]
@@ -236,9 +236,9 @@ def regular_points(problem: Problem, *, apparent: bool | None = None) -> list[Or
 
 def unseen_points(f: RatFunc) -> list[Orbit]:
     """The critical points of f, and infinity, as ordinary points."""
-    one = f.field.poly([1])
+    one = f.field.one
     critical = [Orbit(p, False, one) for p, _ in f.field.factor(f.derivative().num)]
-    return [*critical, Orbit(f.field.poly([0, 1]), True, one)]
+    return [*critical, Orbit(f.field.x, True, one)]
 
 
 def zeros(problem: Problem, polar: RatFunc, *, shifted: bool) -> Iterator[tuple[RatFunc, Poly]]:
@@ -332,7 +332,7 @@ class Fibre:
     def polynomial(self) -> Poly:
         """The product over the finite ones."""
         finite = (point.factor**k for point, k in self.multiplicities if not point.at_infinity)
-        return prod(finite, start=self.square.field.poly([1]))
+        return prod(finite, start=self.square.field.one)
 
 
 def _distributed(
@@ -407,4 +407,4 @@ def _difference_at_ones(f: RatFunc, degree: int, points: list[Orbit]) -> Poly:
     else:
         p, m = max(over_one.field.factor(over_one), key=lambda pair: pair[1])
         found = [point.square for point in points if point.factor == p and not point.at_infinity]
-    return next(iter(found), over_one.field.poly([1])) * Fraction(1, m * m)  # an ordinary point has the difference 1
+    return next(iter(found), over_one.field.one) * Fraction(1, m * m)  # an ordinary point has the difference 1

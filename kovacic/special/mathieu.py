@@ -60,7 +60,7 @@ def mathieu(S: RatFunc, gauge: RatFunc, equation: Equation) -> WrittenPair | Non
         size, shift = cosine * sympy.sqrt(1 + ratio**2), atan(ratio)
     a, q = (sympy.expand(2 * part / kappa**2) for part in (-2 * mean, size))
     # exp(int gauge dt)/sqrt(s), but for its constant: v = u/sqrt(s), and s is t or 1 + t^2 times one.
-    X = RatFunc(gauge.field.poly([0, 1]))
+    X = RatFunc(gauge.field.x)
     half_of_slope = X / (X * X + 1) if is_tangent else 1 / (2 * X)
     factor = display(product(gauge + half_of_slope), Atoms(t)).subs(t, T)
     factor = factor.replace(lambda e: e.func is atan and e.args[0] == T, lambda e: angle)

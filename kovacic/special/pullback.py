@@ -26,8 +26,7 @@ from flint import acb, fmpq, fmpq_poly
 from flint.utils.flint_exceptions import DomainError
 
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
-from kovacic.closed_form.structure import logarithmic_derivative
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.compatibility import cached_property
 from kovacic.engine.places import Problem
 from kovacic.limits import count_work

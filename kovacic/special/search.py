@@ -35,8 +35,7 @@ from flint import nmod_mat
 from kovacic.algebra.factors import dependence
 from kovacic.algebra.homomorphism import BadPrimeError
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
-from kovacic.closed_form.structure import logarithmic_derivative
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative, over_one_denominator
 from kovacic.engine.places import Place, Problem, analyse, rational_square_root
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, VerificationFailed
@@ -150,7 +149,7 @@ _Operator = list[RatFunc]
 
 def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Poly, RatFunc, RatFunc] | None:
     """m, a and b by (2), for b = u B with u = sqrt(m) R and a polynomial B of bounded degree."""
-    one = S.field.poly([1])
+    one = S.field.one
     m = one
     R = RatFunc(one)
     degree = size = 0
@@ -186,7 +185,7 @@ def _solved_system(S: RatFunc, T: RatFunc, orders: Sequence[_Order]) -> tuple[Po
     double_slope = combined((D, b), (-1, derived(slope)))  # 2 a'
     a = combined((1 / (2 * D), derived(double_slope)), (2 * T / D, slope), (T.derivative() / D, b))
     condition = over_one_denominator(combined((2, derived(a)), (-1, double_slope)))
-    vector = _null_vector([_applied(condition, S.field.poly([0, 1]) ** i) for i in range(degree + 1)])
+    vector = _null_vector([_applied(condition, S.field.x**i) for i in range(degree + 1)])
     if vector is None:
         return None
     B = S.field.poly(vector)
@@ -297,7 +296,7 @@ def find(S: RatFunc, budget: Budget, *, extended: bool = True, work: int = SEARC
     units of `work`, is a value: `stopped` is its sentence.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> found = find(x**4 + 2 * x, Budget()).pullback
     >>> print(found.equation.q, found.equation.r, found.equation.M, found.f)
     1 2/3 -2/9 -x**3/3
@@ -374,7 +373,7 @@ def find_transform(S: RatFunc, budget: Budget) -> GaugeTransform | None:
     """y = a v + b v' for a pull-back of one of the `EQUATIONS`, checked exactly; None if nothing is found within the limits.
 
     >>> from kovacic.algebra.rationals import QQ
-    >>> x = RatFunc(QQ.poly([0, 1]))
+    >>> x = RatFunc(QQ.x)
     >>> found = find_transform(x + 3 / (4 * x**2), Budget())  # Ai'(x)/sqrt(x)
     >>> print(found.pullback.equation.name, found.pullback.f, found.m, found.a)
     Airy's x x 0

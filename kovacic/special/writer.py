@@ -20,11 +20,10 @@ from sympy.polys.polytools import parallel_poly_from_expr
 
 from kovacic.algebra.extension import root_of_constant
 from kovacic.algebra.poly import Poly
-from kovacic.algebra.ratfunc import RatFunc
+from kovacic.algebra.ratfunc import RatFunc, logarithmic_derivative
 from kovacic.algebra.rationals import QQ, to_fraction
 from kovacic.closed_form.atoms import Atoms, Expr, antiderivative_parameters, display, hypergeometric
 from kovacic.closed_form.product import Power, Product, product
-from kovacic.closed_form.structure import logarithmic_derivative
 from kovacic.numbers.exact import radical
 from kovacic.special.maps import HALF, Surd
 

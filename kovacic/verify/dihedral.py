@@ -82,11 +82,11 @@ def _is_its_logarithm(H: RatFunc, f: CurveFunction) -> bool:
 def _root_of_odd_norms(f: CurveFunction) -> Poly | None:
     """G with G^2 the product of the norms of the pieces with odd exponents, up to a constant; None if there is none."""
     field = f.h.field
-    product = field.poly([1])
+    product = field.one
     for piece in f.pieces:
         if piece.exponent % 2:
             product = product * (piece.a * piece.a - f.h * piece.b * piece.b)
-    root = field.poly([1])
+    root = field.one
     for factor, multiplicity in factors_of(product):
         if multiplicity % 2:
             return None

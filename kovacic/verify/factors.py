@@ -52,7 +52,7 @@ def is_irreducible(p: Poly) -> bool:
     field = p.field
     if p.degree <= 1 or not isinstance(field, AlgebraicField):
         return p.degree > 0
-    x = field.poly([0, 1])
+    x = field.x
     roots = p.degree * field.dimension
     for s in range(roots**2 + 1):  # roots^2 shifts at most let two roots of the norm meet: one of these is left
         check_time()

@@ -102,7 +102,7 @@ def _inverse_has_an_integral(inspector: Inspector, F: SemiInvariant) -> bool:
     At the ordinary points y2 is analytic, so that 1/F has no residue there.
     """
     num = F.P
-    den = F.P.field.poly([1])
+    den = F.P.field.one
     for p, value in rational_residues(F.theta) or []:
         if value > 0:
             num = num * p ** int(value)

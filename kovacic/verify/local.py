@@ -140,7 +140,7 @@ def points(S: RatFunc, budget: Budget) -> list[Point]:
     k = S.num.degree - S.den.degree + 4 if S.num else 0
     num = S.num.reversed(max(-k, 0))
     den = S.den.reversed(max(k, 0))
-    x = S.field.poly([0, 1])
+    x = S.field.x
     return [*found, Point(x, max(k, 0), num, den, budget, Expansions(num, den, [(x, max(k, 0))]), at_infinity=True)]
 
 

@@ -48,7 +48,7 @@ def chart(place: Point, points: list[Point], h: Homomorphism, root: int) -> Char
     """
     M, E = place.localised(h, root)
     den = translated(h.keeping_degree(place.den), root)
-    origin = place.factor.field.poly([0, 1])
+    origin = place.factor.field.x
     growth = -1
     for other in points:
         if other.at_infinity != place.at_infinity and other.factor == origin:

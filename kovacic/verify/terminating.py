@@ -47,10 +47,10 @@ class Recurrence(NamedTuple):
 def recurrence(S: RatFunc, theta: RatFunc, centre: Poly) -> Recurrence | None:
     """Equation (1) about a point; None if the operator has other than two terms there."""
     field = theta.field
-    one = RatFunc(field.poly([1]))
+    one = RatFunc(field.one)
     S = RatFunc(S.num.over(field), S.den.over(field))
     parts = over_one_denominator([one, 2 * theta, theta.derivative() + theta * theta - S])
-    second, first, zeroth = (part(field.poly([0, 1]) + centre) for part in parts)
+    second, first, zeroth = (part(field.x + centre) for part in parts)
     terms = []
     for j in range(-2, max(second.degree - 2, first.degree - 1, zeroth.degree) + 1):
         U = field.poly([zeroth[j], first[j + 1] - second[j + 2], second[j + 2]])
@@ -96,8 +96,8 @@ def numbers_of_series(S: RatFunc, points: list[Point]) -> tuple[int, int] | None
     tried = ending = 0
     for parts in product(*choices):
         check_time()
-        theta = sum((part for _, part in parts), RatFunc(S.field.poly([])))
-        degree = S.field.rational_value(1 - sum((exponent for exponent, _ in parts), S.field.poly([])))
+        theta = sum((part for _, part in parts), RatFunc(S.field.zero))
+        degree = S.field.rational_value(1 - sum((exponent for exponent, _ in parts), S.field.zero))
         if degree is None or degree < 0 or degree.denominator > 1:
             continue
         tried += 1
@@ -125,7 +125,7 @@ def _local_parts(point: Point) -> list[tuple[Poly, RatFunc]] | None:
     v(z) = z y(1/z), y'/y = 1/x - (v'/v)(1/x)/x^2, and the part is -polar(1/x)/x^2.
     """
     field = point.factor.field
-    zero = field.poly([])
+    zero = field.zero
     if point.factor.degree > 1 or (point.order > 2 and point.order % 2):
         return None
     if point.order < 2:
@@ -162,7 +162,7 @@ def _square_root(point: Point) -> list[Poly] | None:
     """w_0, ..., w_(nu-1) with S = (w_0 + w_1 t + ...)^2/t^(2 nu) at an irregular point; None if w_0 lies in another field."""
     field = point.factor.field
     nu = point.order // 2
-    t = field.poly([0, 1])
+    t = field.x
     N, q = (part(t - point.factor[0]) for part in point.near)
     u = N * inverse(q, t**nu) % t**nu
     first = field.sqrt(u[0])
@@ -170,6 +170,6 @@ def _square_root(point: Point) -> list[Poly] | None:
         return None
     w = [first]
     for k in range(1, nu):
-        known = sum((w[i] * w[k - i] for i in range(1, k)), field.poly([]))
+        known = sum((w[i] * w[k - i] for i in range(1, k)), field.zero)
         w.append((u[k] - known) / (2 * first))
     return w

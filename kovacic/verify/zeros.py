@@ -48,10 +48,10 @@ from kovacic.verify.primes import SAMPLES, BadPrimeError, Homomorphism, homomorp
 
 def residue_over_leading_root(N: Poly, q: Poly, p: Poly, nu: int) -> Poly:
     """The residue of R/(q p^nu) at the class of x in K[x]/p: times the square root of N q it is that of sqrt(S)."""
-    one = p.field.poly([1])
+    one = p.field.one
     if p.degree == 1:  # at a rational pole, whose order may be high, by Newton's iteration for 1/R
         N, q = (f(p.field.poly([-p[0], 1])) for f in (N, q))
-        t = p.field.poly([0, 1])
+        t = p.field.x
         square = N * q % t**nu / (N * q)[0]
         root = one
         k = 1
@@ -82,7 +82,7 @@ def last_of_quotient(above: list[Poly], below: list[Poly], p: Poly) -> Poly:
     scale = inverse(below[0], p)
     found: list[Poly] = []
     for k, c in enumerate(above):
-        found.append((c - sum(map(mul, found, below[k:0:-1]), p.field.poly([]))) * scale % p)
+        found.append((c - sum(map(mul, found, below[k:0:-1]), p.field.zero)) * scale % p)
     return found[-1]
 
 
@@ -166,10 +166,10 @@ def _half_difference(point: Point) -> Fraction | None:
         scale = 2 * residue_over_leading_root(*point.near, p, point.order // 2)
     # The trace over K is that of the matrix by which the difference multiplies 1, x, x^2, ...
     column = _proven_square_root(radicand, p) * scale % p
-    trace = p.field.poly([])
+    trace = p.field.zero
     for k in range(p.degree):
         trace = trace + column[k]
-        column = p.field.poly([0, 1]) * column % p
+        column = p.field.x * column % p
     # The first coordinate over Q is a linear map that leaves rational numbers alone.  Exponents and zeros add up to 1 in K;
     # applied to all of them, it makes this a relation of rational numbers, with the same number of zeros.
     return to_fraction(trace.rational_coefficients()[0]) / 2 if trace else Fraction(0)

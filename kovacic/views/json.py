@@ -314,7 +314,7 @@ def _check_normal_form(answer: Answer, *, verified: bool) -> None:
     form, riccati, F = answer.semi_invariant, answer.riccati, answer.decision.invariant
     if form is None or riccati is None:
         return
-    D = answer.S.field.poly([1])
+    D = answer.S.field.one
     for p, k in answer.S.field.factor(answer.S.den):
         D *= p ** ((k + 1) // 2)
     if form.P.lc != 1 or riccati.D != D:

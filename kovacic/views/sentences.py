@@ -65,7 +65,7 @@ def omega_math(riccati: RiccatiPolynomial, formulas: Formulas) -> Math:
 
 def powers_in(series: TerminatingSeries, formulas: Formulas) -> Iterator[str | Math]:
     """The powers in P, for a P given by its recurrence."""
-    t = formulas.math(series.theta.field.poly([0, 1]) - series.centre)
+    t = formulas.math(series.theta.field.x - series.centre)
     highest, lowest, step = map(in_a_message, (series.degree, series.lowest, series.step))
     yield from (f"degree {highest}, with powers of ", t, f" down to {lowest} in steps of {step}")
 

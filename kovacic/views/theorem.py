@@ -22,7 +22,7 @@ from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.claims import IntegerFamily
 from kovacic.parametric.formulas import partial_fractions, shortest_form, unexpanded
-from kovacic.parametric.integers import free_letter
+from kovacic.parametric.integers import INTEGER_LETTERS
 from kovacic.parametric.natural import WITHOUT_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import (
@@ -323,7 +323,7 @@ class _TheoremWriter:
             return
         names = re.findall(r"[^\W\d]\w*", case.statement.text())
         taken = [*map(str, solution.y.free_symbols), *self.answer.parameters, *names]
-        letter = sympy.Symbol(free_letter(taken))
+        letter = sympy.Symbol(free_name(taken, *INTEGER_LETTERS))
         y = solution.y.xreplace({solution.degree: letter})
         degree = of_sympy(self._collected(solution.degree))
         if y.has(letter):

@@ -25,6 +25,7 @@ from flint import acb
 from sympy.abc import x
 
 import kovacic
+from kovacic.algebra.ratfunc import logarithmic_derivative
 from kovacic.closed_form.check import is_numerical_solution, value_at
 from kovacic.closed_form.curve import CurveIntegral, integrate_on_curve
 from kovacic.closed_form.primitive import ExponentialPrimitive, RationalPrimitive
@@ -37,7 +38,6 @@ from kovacic.closed_form.structure import (
     OnCurve,
     build,
     curve_of_pair,
-    logarithmic_derivative,
 )
 from kovacic.special.choice import chosen_form
 
