@@ -228,6 +228,13 @@ def test_the_group_of_an_equation_with_an_algebraic_constant_agrees() -> None:
     assert kovacic.solve("-3/(16*(x-sqrt(2))^2)").compare_with_monodromy().verdict is True
 
 
+def test_real_singular_points_are_known_to_be_real() -> None:
+    """sqrt(2) and -sqrt(2), which were isolated among complex numbers."""
+    points = [local.point for local in monodromy("1/(x^2 - 2)", digits=3)]
+    assert [point.real for point in points] == [True, True]
+    assert all((point * point).contains(2) for point in points)
+
+
 def test_a_logarithm_has_infinite_order_and_a_polynomial_has_no_monodromy() -> None:
     (local,) = monodromy("-1/(4*x^2)")
     assert not any(local.is_identity_to_the_power(k) for k in range(1, 30))

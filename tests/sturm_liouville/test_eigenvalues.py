@@ -4,12 +4,14 @@ import cmath
 import pickle
 from fractions import Fraction
 
+import flint
 import pytest
 import sympy
 
 import kovacic
 from kovacic import eigenvalues
 from kovacic.general_solution.boundary_problems import read_eigenproblem
+from kovacic.sturm_liouville import discs
 from kovacic.sturm_liouville.discs import germ
 from kovacic.sturm_liouville.ends import _times_square
 from kovacic.sturm_liouville.problem import _is_below, stretches_of
@@ -396,3 +398,31 @@ def test_which_of_two_points_is_below_the_other():
         assert not _is_below(high, low)
     with pytest.raises(kovacic.InputError, match="it isn't known whether"):
         _is_below(a, p)
+
+
+@pytest.mark.parametrize(
+    ("e", "centre", "radius", "boxes"),
+    [
+        ("x^4 - 3*x", 0.25, 0.75, 1),
+        ("1/cosh(x)", 0.25, 1.25, 17),
+        ("sqrt(x)", 2, 1.5, 1),
+        ("1/x", 0.25, 1.25, 3),
+        ("1/cosh(x)", 0, 1.5625, 15),
+    ],
+)
+def test_the_bound_in_a_disc_takes_sixteen_boxes_only_where_one_is_too_large(e, centre, radius, boxes, monkeypatch):
+    seen = []
+
+    class Seen(discs._GermEvaluator):
+        def __init__(self, values, **given):
+            seen.append(values)
+            super().__init__(values, **given)
+
+    monkeypatch.setattr(discs, "_GermEvaluator", Seen)
+    e, x = sympy.sympify(e), sympy.Symbol("x")
+    bound = discs.size_bound(e, x, flint.arb(centre), flint.arb(radius))
+    assert len(seen) == boxes
+    assert bound.is_finite() == (boxes in (1, 17))  # else the last box has a pole, such as pi/2 i
+    if bound.is_finite():
+        largest = max(abs(complex(e.subs(x, centre + radius * cmath.exp(k / 2 * 1j)))) for k in range(13))
+        assert largest < bound < 5 * largest
