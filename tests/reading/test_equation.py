@@ -133,7 +133,7 @@ def test_right_hand_sides(right: str, f: RatFunc, h: sympy.Expr | None) -> None:
         (r"y'' = \sin^{n+1} x", NotRational, "without its parentheses", 6),
         ("y'' = e^-2.5t y", ParseError, "write e^(-2.5*t) or e^(-2.5)*t", 6),
         ("y'' = (x, 3)*y", ParseError, "values, y(0) = 1, are for dsolve", 8),
-        (".y'' = x*y", ParseError, "unexpected character '.'", 0),
+        (".diff(y, x) = x*y", ParseError, "unexpected character '.'", 0),
         ("y.diff + x*y = 0", ParseError, "unexpected character '.'", 1),
         ("y'' = x.(y)", ParseError, "unexpected character '.'", 7),
         ("dsolve()", ParseError, "there is no expression", 0),
@@ -362,6 +362,11 @@ def test_constants_are_letters(constant: str, number: int) -> None:
     values = {symbol: sympy.Rational(k + 3, 7) for k, symbol in enumerate(sorted(given.free_symbols | {x}, key=str))}
     difference = S.xreplace(letters).xreplace({sympy.Symbol("pi"): sympy.pi}) - x - given
     assert abs(difference.subs(values).evalf(30, maxn=200)) < 1e-25
+
+
+def test_pi_beside_its_powers_is_one_of_them() -> None:
+    parsed = read_input(with_constant("pi**(1/S(3)) + 3*pi"), exponentials=True)
+    assert [name for name, _ in parsed.letters] == ["pi_1_3"]
 
 
 @parametrize("constant", [row[0] for row in CONSTANTS], ordinary=3)

@@ -292,6 +292,7 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
         ("c1 = y(0)==1; c2 = Dy(0)==0; dsolve(diff(y,x,2)+y==0, [c1 c2])", "cos(x)"),
         (r"y'' + y = 0, y{\left(0 \right)} = 3, y'{\left(0 \right)} = 2", "2*sin(x) + 3*cos(x)"),
         ("desolve(diff(y,x)+4*y==0, y, ics=[2,3])", "3*exp(8 - 4*x)"),
+        (r"\frac{d^{2}}{d x^{2}} y{\left(x \right)} = 4 y{\left(x \right)}, y(0) = 3, y'(0) = 6", "3*exp(2*x)"),
         ("[y'' + 4*y = 0, y(0) = 3]", "C2*sin(2*x) + 3*cos(2*x)"),
         ("rhs(dsolve(y'' + 4*y = 0, y(0) = 3))", "C2*sin(2*x) + 3*cos(2*x)"),
         ("dsolve(); y'' + y = 0, y(0) = 3", "C2*sin(x) + 3*cos(x)"),
