@@ -162,7 +162,7 @@ def _steps(answer: SecondOrderAnswer) -> Iterator[Block]:
     yield say(f"{source}:")
     letters = sympy.Tuple(*map(question.own, question.coefficients)).free_symbols
     taken = letters | symbols_of(question.conditions)
-    u, v = (free_name(taken, f"y{k}", f"u{k}") for k in (1, 2))
+    u, v = ("y1", "y2") if {"y1", "y2"}.isdisjoint(map(str, taken)) else ("u1", "u2")
     f, w, particular = (free_name(taken, *names) for names in (("F", "R", "G"), ("W", "D"), ("y0", "y_p", "u_p")))
     pair = {u: own(answer.basis.y1), v: own(answer.basis.y2)}
     yield from (_definition(name, value) for name, value in pair.items())

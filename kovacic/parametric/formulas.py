@@ -35,6 +35,8 @@ from kovacic.reading.names import is_function
 from kovacic.reading.naming import Source
 from kovacic.writing.formula import Math, caret, latex_text, with_single_powers
 
+#: Characters by which a formula may become longer so that its denominator is in factors.
+_FOR_FACTORS = 4
 #: A power of the variable before powers of parameters, as flint writes a term.
 _VARIABLE_FIRST = r"\b(x(?:\^\d+)?)\*(t\d+(?:\^\d+)?(?:\*t\d+(?:\^\d+)?)*)"
 #: A polynomial in the parameters, flint's, with an exponent.
@@ -57,9 +59,13 @@ def shifted(text: str, value: Poly) -> str:
 
 
 def shortest_form(function: Poly | RatFunc, letter: str = "x") -> str:
-    """The shortest of the usual forms; `letter` is the name of the polynomial variable."""
+    """The shortest of the usual forms, with its denominator in factors; `letter` is the name of the polynomial variable."""
     above, below, names = _as_quotient(function, letter)
-    return min((_sum_text(form, names) for form in _written_forms(above, below)), key=len)
+    forms = [*_written_forms(above, below)]
+    best = min((_sum_text(form, names) for form in forms), key=len)
+    has_sum_below = re.search(r"/\([^()]* [+-] [^()]*\)", best) is not None
+    in_factors = _sum_text(forms[-1], names)
+    return in_factors if has_sum_below and len(in_factors) <= len(best) + _FOR_FACTORS else best
 
 
 def partial_fractions(S: RatFunc, variable: str) -> str:

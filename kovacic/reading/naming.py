@@ -78,6 +78,8 @@ class Source(NamedTuple):
     #: Those of the notes that say what was guessed.
     guesses: tuple[str, ...] = ()
     limits: Limits = DEFAULT_LIMITS
+    #: The parameters of the field in this order, all of which occur; by default in that of their appearance.
+    order: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

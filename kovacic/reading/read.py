@@ -28,6 +28,7 @@ def read_input(
     unknown: Any = None,
     equation: bool = False,
     names: Collection[str] = (),
+    order: Sequence[str] = (),
 ) -> Parsed:
     """S as a rational function with the name of its variable, from whatever the user has.
 
@@ -38,7 +39,8 @@ def read_input(
     SymPy symbol; by default it is the only symbol, else x.  SymPy isn't imported unless S comes from it.  With `exponentials`,
     coefficients may be rational in exp(k x), or sines, ... of multiples of k x: the equation then has a `change` of variable.
     `equation` says that it is one, and `unknown` is the name of its function, or y(x), where more than one occurs.
-    `names` are declared parameters: names of more than one letter have to be.
+    `names` are declared parameters: names of more than one letter have to be.  `order` has all parameters in the order of
+    the field; by default it is that of their appearance.
     Raises `InputError` and `LimitExceeded`.
 
     >>> str(read_input("x^2 + 3").S), str(read_input(([3, 0, 1], [1])).S)
@@ -47,6 +49,7 @@ def read_input(
     variable = _variable_name(var)
     if isinstance(S, str | Paste) or _is_sympy(S):
         source = source_of(S, variable, limits, unknown=unknown, equation=equation, names=names)
+        source = source._replace(order=tuple(order))
         parsed = _with_note(_meaning(S, source, exponentials=exponentials))
         if parsed.equation is None:
             _check_unknown(parsed.variable, *parameters_of(parsed.S.field))

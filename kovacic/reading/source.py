@@ -127,7 +127,7 @@ def read_source(source: Source) -> Parsed:
         notes = (*reader.notices(), *constants.notices(reader.letters))
         return Parsed(equation.S, x, notes, equation, tuple(reader.letters.items()))
 
-    return read_with_constants(read, Constants(source.limits))
+    return read_with_constants(read, Constants(source.limits, parameters=source.order))
 
 
 def parts_of(source: Source, order: int = 2) -> tuple[Sequence[Any], list[str]]:

@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import acb, fmpq, fmpq_poly
@@ -148,8 +149,11 @@ def _near_zero(q: Poly, r: Poly) -> list[Poly]:
 
 
 def _signs(parts: list[PolarPart]) -> Iterator[Sequence[int]]:
-    """The signs of the parts: their residues are proportional to the orders; where they vanish, Bessel's search finds f."""
+    """The signs of the parts: their residues are proportional to the orders; all signs where the residues vanish."""
     rates = [part.residue * Fraction(1, part.order) for part in parts]
+    if not any(rates):
+        yield from product((1,), *[(1, -1)] * (len(parts) - 1))
+        return
     signs = {rates[0]: 1, -rates[0]: -1}
     if all(rate in signs for rate in rates):
         yield [signs[rate] for rate in rates]

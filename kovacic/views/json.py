@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from flint import fmpz
@@ -239,7 +240,11 @@ def _read_again(data: Mapping[str, Any], text: str, variable: str) -> Parsed:
     parameters = (data.get("field") or {}).get("parameters") or ()
     numbers = {PI, EULER} & {PI, *(data.get("letters") or {})}
     names = words_among(name for name in parameters if name not in numbers)
-    parsed = read_input(text, var=given, limits=_READING_LIMITS, exponentials=given != variable, names=names)
+    read = partial(read_input, text, var=given, limits=_READING_LIMITS, exponentials=given != variable, names=names)
+    parsed = read()
+    found = parameters_of(parsed.S.field)
+    if found != tuple(parameters) and sorted(found) == sorted(parameters):  # constants of SymPy come in another order
+        parsed = read(order=parameters)
     is_over_the_same = parsed.variable == variable and _is_field(data.get("field"), parsed.S.field)
     if not is_over_the_same or _AnswerReader.over(parsed.S.field, variable).ratfunc(data["S"]) != parsed.S:
         raise ValueError("S isn't that of the input")
