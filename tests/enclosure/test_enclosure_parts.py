@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 
 from kovacic import Ball, InputError, Limits
 from kovacic.enclosure import frobenius
-from kovacic.enclosure.frame import check_segment, foreseen_growth, frequency, offsets, shift
+from kovacic.enclosure.frame import check_segment, foreseen_growth, frequency, is_apart, offsets, shift
 from kovacic.enclosure.log_derivative import _principal_part
 from kovacic.enclosure.matrices import NOTHING, MapProduct, State
 from kovacic.enclosure.points import as_number, as_point
@@ -339,3 +339,14 @@ def test_the_junction_is_the_target_itself_or_on_the_way_to_it(place: ExactPoint
         here, there = (abs(point.offset(x)) for x in (last, towards))
         assert here < bound.rho
         assert last == towards or here < 0.51 * there
+
+
+def test_a_hull_of_points_is_free_of_singular_ones() -> None:
+    system = system_of((1,), (1, 0, 1))  # at I and -I
+    origin, right, left = ExactPoint(0), ExactPoint(2), ExactPoint(-2)
+    high = ExactPoint(fmpq(0), fmpq(3))
+    assert is_apart(system, origin, right)
+    assert is_apart(system, left, right, ExactPoint(fmpq(1), fmpq(1, 2)))
+    assert is_apart(system, ExactPoint(fmpq(1), fmpq(3)), right, ExactPoint(fmpq(1), fmpq(-3)))
+    assert not is_apart(system, left, right, high)
+    assert not is_apart(system, origin, high)

@@ -273,6 +273,7 @@ def test_answers_in_logarithms_of_waves_are_real_for_small_angles(right: str) ->
         ("log(x^(1/3)*k)", "x > 0, k > 0"),
         ("log((x + 1)^(3/2))", "x + 1 > 0"),
         ("Integral(log(s), (s, 1, x))", "x > 0"),
+        ("log((sin(x) + 1)/(1 - sin(x)))", "cos(x) != 0"),
     ],
 )
 def test_relations_in_x_are_one_interval(value: str, needed: str) -> None:

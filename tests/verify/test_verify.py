@@ -361,6 +361,15 @@ def test_a_forged_invariant_fails(text: str, invariant: Any) -> None:
             _ = forged.group
 
 
+def test_a_solution_by_a_series_comes_without_another_one() -> None:
+    answer, other = kovacic.solve("x^2 + 2000000001"), kovacic.solve("x^2 + 3")
+    decision = answer.decision
+    assert decision.series is not None
+    assert verify(answer.S, decision)
+    assert not verify(answer.S, replace(decision, riccati=other.decision.riccati))
+    assert not verify(answer.S, replace(decision, semi_invariant=other.decision.semi_invariant))
+
+
 def test_an_irregular_place_has_no_exponent_difference() -> None:
     """Of such a place the rules say that it is irregular, and nothing of exponents."""
     data = json.loads(kovacic.solve("x").to_json())
