@@ -184,53 +184,71 @@ def _possible_angles(m: acb_mat, traces: dict[Fraction, acb]) -> list[Fraction]:
 
 def _by_conditions(words: list[acb_mat], group: Group, fuchsian: bool) -> Agreement:
     """An infinite group (or a large one): the conditions (1), which a ball leaves open or disproves."""
-    commutators = _commutators(words)
-    may_commute = all(map(_may_be_identity, commutators))
-    may_be_reducible = all(c.trace().overlaps(_TWO) for c in commutators)
-    may_be_monomial = all(map(_may_be_identity, _commutators([word**2 for word in words])))
-    conditions = [
-        (_TRIANGULAR, may_be_reducible, "the monodromy matrices have no common eigenvector, unlike"),
-        (_DIAGONAL, may_commute, "the monodromy matrices don't commute, unlike"),
-        (_IMPRIMITIVE, may_be_monomial, "the squares of the monodromy matrices don't commute, unlike those of"),
-    ]
-    if group.n is not None and group.kind in _WITH_ROOTS_OF_UNITY:
-        are_roots = all(_may_have_order(word, group.n) for word in words)
-        is_lower = fuchsian and are_roots and _is_proper_order(words, group.n)
-        conditions += [
-            (_WITH_ROOTS_OF_UNITY, are_roots, "an eigenvalue of a monodromy matrix isn't a root of unity of"),
-            (
-                _WITH_ROOTS_OF_UNITY,
-                not is_lower,
-                "the eigenvalues of the monodromy matrices have a lower order than those of",
-            ),
-        ]
-    for kinds, may_hold, contradiction in conditions:
-        if group.kind in kinds and not may_hold:
-            return Agreement(False, f"{contradiction} {group}")
+    contradiction = _contradiction(words, group, fuchsian)
+    if contradiction is not None:
+        return Agreement(False, f"{contradiction} {group}")
     if group.kind is GroupKind.SL2:  # only a group in no proper algebraic subgroup is dense
-        longer = [*words, *commutators, *_products(words)]
+        longer = [*words, *_commutators(words), *_products(words)]
         may_be_primitive = any(all(_may_be_in(m, kind) for m in longer) for kind in _PRIMITIVE)
-        if may_be_reducible or may_be_monomial or may_be_primitive:
+        if _may_be_reducible(words) or _may_be_monomial(words) or may_be_primitive:
             return Agreement(None, "the monodromy matrices alone don't exclude every smaller group")
         return Agreement(True, "the monodromy matrices generate a group that is dense in SL2")
     if not fuchsian:
         return Agreement(True, f"the monodromy lies in {group} (irregular: it needn't be dense)")
-    # The eigenvalues of a smaller group are roots of unity, or it is abelian or reducible; of G_a extended by mu_n a smaller n
-    # was excluded, and finite subgroups are cyclic.  Of other groups nothing is tried.
-    may_be_smaller = {
-        GroupKind.ADDITIVE: may_commute,
-        GroupKind.MULTIPLICATIVE: False,
-        GroupKind.BOREL: may_commute,
-        GroupKind.INFINITE_DIHEDRAL: may_be_reducible,
-    }.get(group.kind, True)
-    if group.kind is GroupKind.ADDITIVE:
-        n = group.n or 1
-        may_be_smaller &= n >= _LARGEST_POWER or all(_may_be_identity(word**n) for word in words)
-    elif not may_be_smaller:
-        may_be_smaller = all(any(_may_have_order(word, k + 1) for k in range(MOST_TRIALS)) for word in words)
-    if may_be_smaller:
+    if _may_be_smaller(words, group):
         return Agreement(None, f"the monodromy lies in {group}, and perhaps in a smaller group")
     return Agreement(True, f"the monodromy lies in {group}, and in none of the smaller groups that were tried")
+
+
+def _contradiction(words: list[acb_mat], group: Group, fuchsian: bool) -> str | None:
+    """The condition of the group's kind that the matrices provably violate, in words that its name follows."""
+    if group.kind in _TRIANGULAR and not _may_be_reducible(words):
+        return "the monodromy matrices have no common eigenvector, unlike"
+    if group.kind in _DIAGONAL and not _may_commute(words):
+        return "the monodromy matrices don't commute, unlike"
+    if group.kind in _IMPRIMITIVE and not _may_be_monomial(words):
+        return "the squares of the monodromy matrices don't commute, unlike those of"
+    if group.n is None or group.kind not in _WITH_ROOTS_OF_UNITY:
+        return None
+    if not all(_may_have_order(word, group.n) for word in words):
+        return "an eigenvalue of a monodromy matrix isn't a root of unity of"
+    # The monodromy of a Fuchsian equation is dense in its group, so n is the common multiple of the orders.
+    if fuchsian and _is_proper_order(words, group.n):
+        return "the eigenvalues of the monodromy matrices have a lower order than those of"
+    return None
+
+
+def _may_be_smaller(words: list[acb_mat], group: Group) -> bool:
+    """True unless the matrices provably lie in none of the smaller groups that are tried.
+
+    The eigenvalues of a smaller group are roots of unity, or it is abelian or reducible; of G_a extended by mu_n a smaller n
+    was excluded, and finite subgroups are cyclic.  Of other groups nothing is tried.
+    """
+    if group.kind is GroupKind.ADDITIVE:
+        n = group.n or 1
+        return _may_commute(words) and (n >= _LARGEST_POWER or all(_may_be_identity(word**n) for word in words))
+    if group.kind is GroupKind.BOREL:
+        may_be_infinite = _may_commute(words)
+    elif group.kind is GroupKind.INFINITE_DIHEDRAL:
+        may_be_infinite = _may_be_reducible(words)
+    else:
+        may_be_infinite = group.kind is not GroupKind.MULTIPLICATIVE
+    have_roots_of_unity = (any(_may_have_order(word, k + 1) for k in range(MOST_TRIALS)) for word in words)
+    return may_be_infinite or all(have_roots_of_unity)
+
+
+def _may_be_reducible(words: list[acb_mat]) -> bool:
+    """True unless a commutator provably has another trace than 2, which it has beside a common eigenvector."""
+    return all(c.trace().overlaps(_TWO) for c in _commutators(words))
+
+
+def _may_commute(words: list[acb_mat]) -> bool:
+    return all(map(_may_be_identity, _commutators(words)))
+
+
+def _may_be_monomial(words: list[acb_mat]) -> bool:
+    """True unless the squares, which are diagonal in a group that permutes two lines, provably don't commute."""
+    return _may_commute([word**2 for word in words])
 
 
 def _may_have_order(m: acb_mat, k: int) -> bool:

@@ -134,6 +134,11 @@ def _first_factor(D: Any, P: Any, X: Any, Y: Any, half: Any) -> tuple[Any, Any]:
 
 
 def _unique_omega(problem: Problem) -> Form | Evidence:
+    """The only rational omega, lifted from its images modulo primes, or a proof that there is none.
+
+    One set of primes without an omega of a degree up to the bound proves it.  The bound is computed at first where it is
+    cheap, else where the first degrees bring none.
+    """
     impossible = irrational_exponents(problem)
     if impossible is not None:
         return impossible
@@ -157,10 +162,10 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
                     return bound
                 if further := [n for n in _ladder(bound.largest) if n > degrees[-1]]:
                     found = [_omega_modulo(h, problem, place, further, exponents) for h in bundle]
+                if None in found:
+                    return NoRationalOmega(bound.largest, bundle[found.index(None)].p, place.name)
         except BadPrimeError:
             continue
-        if isinstance(bound, DegreeBound) and None in found:
-            return NoRationalOmega(bound.largest, bundle[found.index(None)].p, place.name)
         images = [part for part in found if part is not None]
         degrees = [images[0][1]]
         form = _lifted_omega(problem, lifter, bundle, images)
@@ -171,11 +176,13 @@ def _unique_omega(problem: Problem) -> Form | Evidence:
 
 def _omegas_of_low_degree(problem: Problem) -> list[Form]:
     """Every omega = R/D + P'/P over K with a P of low degree, told apart by their exponents at a place."""
-    # Where all solutions may look alike, those of the smaller exponent agree up to the term of the difference of the exponents.
+
+    def agreement(place: Place) -> tuple[Any, int]:
+        # At an apparent point all solutions of the smaller exponent agree up to the term of the difference of the exponents.
+        return (-(place.delta or 0) if place.is_apparent else -math.inf, place.degree)
+
     singular = [place for place in problem.places if place.kind is not Kind.ORDINARY]
-    for place in sorted(
-        singular, key=lambda place: (-(place.delta or 0) if place.is_apparent else -math.inf, place.degree)
-    ):
+    for place in sorted(singular, key=agreement):
         roots = Roots(problem.field)
         choices = first_case_choices(place, roots) or ()
         exponents = [problem.field.one * c.value for c in choices] if roots.field == problem.field else []

@@ -364,7 +364,7 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
 
 
 def _is_infinite(particular: Expr, x: Expr, approach: Approach) -> bool:
-    """True if the limit is known to be infinite; all solutions are then infinite there, as h isn't."""
+    """True if the limit is seen to be infinite; then every solution is, since h has a finite limit."""
     with suppress(UnknownLimit):
         return bool(limit_at(particular, x, approach) == sympy.oo)
     return False

@@ -40,7 +40,7 @@ def impulses_inside(question: Question) -> tuple[dict[Expr, Expr], list[str], di
     The values of the steps H(low - a) = 0 and H(high - a) = 1, the order in words, and expressions for letters that put the
     impulses there, for all values of the remaining letters.  Empty without two finite points, or with steps.
     """
-    h = sympy.sympify(question.equation.h or 0)
+    h = question.equation.h or sympy.S.Zero
     is_impulse = not h.has(Heaviside) and all(len(impulse.args) == 1 for impulse in h.atoms(DiracDelta))
     values: dict[Expr, Expr] = {}
     notices: list[str] = []
@@ -119,7 +119,7 @@ def check_between(question: Question, solutions: Sequence[Expr]) -> None:
 
 def _all_points(question: Question) -> list[Expr]:
     """The points of conditions and of jumps."""
-    return [*question.points, *jump_points(sympy.sympify(question.equation.h or 0), question.x)]
+    return [*question.points, *jump_points(question.equation.h or sympy.S.Zero, question.x)]
 
 
 def basis_real_at(basis: Basis, point: Expr) -> Basis:
