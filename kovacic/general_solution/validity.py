@@ -120,24 +120,33 @@ def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collec
     u = relation.lhs
     if isinstance(relation, Ne):
         return [Ne(-u, 0) if u.could_extract_minus_sign() else relation]
-    if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
-        u = sympy.factor(sympy.together(expand(u.rewrite(sympy.exp))))
-    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(Pow)):
-        u = sympy.factor_terms(sympy.together(u))
+    u = _as_a_product(u)
     is_strict = isinstance(relation, StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
     positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, GreaterThan)}
     apart, rest = [], []
     for f in Mul.make_args(u.as_content_primitive()[1]):
         base, exponent = f.as_base_exp() if f.is_Pow else (f, S.One)
+        is_fraction = not (
+            exponent.is_integer or exponent.free_symbols
+        )  # a power that is real for a positive base only
         if _truth(_positive_need(f)) or (f in positive and not is_strict):
             continue
         if isinstance(f, sympy.Abs) or exponent.is_even:
             apart += [_nonzero(f.args[0])] * (is_strict and not exponent.is_negative)
-        elif is_strict and (base in positive | known or not (exponent.is_integer or exponent.free_symbols)):
+        elif is_strict and (base in positive | known or is_fraction):
             apart.append(_positive_need(base))
         else:
             rest.append(base if exponent.is_odd else f)
     return [*apart, (_positive_need if is_strict else _not_negative)(Mul(*rest))]
+
+
+def _as_a_product(u: Expr) -> Expr:
+    """u with a product in place of a sum of fractions or of hyperbolic tangents, whose factors' signs may be known."""
+    if u.has(sympy.tanh):  # 1 - tanh(x)^2 = 4 exp(2 x)/(exp(2 x) + 1)^2
+        u = sympy.factor(sympy.together(expand(u.rewrite(sympy.exp))))
+    if u.is_Add and u.is_rational_function() and any(p.exp.is_negative for p in u.atoms(Pow)):
+        u = sympy.factor_terms(sympy.together(u))
+    return u
 
 
 def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
