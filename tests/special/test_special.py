@@ -134,6 +134,53 @@ CORPUS = [
 ]
 
 
+PAIRS = [
+    json.loads(line)
+    for line in (Path(__file__).parents[1] / "data" / "pairs.jsonl").read_text(encoding="utf-8").splitlines()
+]
+
+
+def pair_of(row: dict[str, Any]) -> Any:
+    """What is found for a row: of an equation or of S, with assumptions about letters, and with places to be real at."""
+    parsed = read_input(row["equation"], var="x")
+    gauge = parsed.S * 0 if parsed.equation is None else parsed.equation.gauge
+    letters = {
+        name: sympy.Symbol(name, **dict.fromkeys(words.split(), True)) for name, words in row.get("letters", {}).items()
+    }
+    places = [Fraction(place) for place in row.get("places", ())]
+    return special_functions(Wanted(parsed.S, gauge, "x", letters, "joined" in row, places), Budget())
+
+
+@pytest.mark.parametrize("row", PAIRS, ids=lambda row: row["equation"][:60])
+def test_pairs_are_written_as_in_the_table(row: dict[str, Any]) -> None:
+    """f; y1 and y2, their Wronskian, the numbers that mustn't vanish, and where both are real; m, a, b of a gauge transform.
+
+    The next test shows that what stands in the table is right.
+    """
+    found = pair_of(row)
+    y1, y2, W, undefined, place = row["pair"]
+    assert str(found.pullback.f) == row["f"]
+    assert [str(y) for y in found] == [y1, y2]
+    assert (str(found.pair.wronskian), ", ".join(map(str, found.pair.undefined))) == (W, undefined)
+    assert str(found.pair.place) == place
+    given = found.transform and [str(part) for part in (found.transform.m, found.transform.a, found.transform.b)]
+    assert given == row.get("transform")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(6))
+def test_pairs_of_the_table_have_the_wronskian_that_stands_there(part: int) -> None:
+    """By mpmath's numbers, at a point off the axis; that both are solutions is checked by all that is returned."""
+    values = {name: mpmath.mpf(k) / 7 for name, k in zip("abcklpq", (2, 6, 3, 10, 4, -9, 16), strict=True)}
+    for row in PAIRS[part::6]:
+        pair = pair_of(row).pair
+        if pair.wronskian is not None:
+            with mpmath.workdps(25):
+                first, second = (mpmath.taylor(function(y, {**values, "n": 4, "m": 2}), POINT, 1) for y in pair)
+                stated = function(pair.wronskian, {**values, "n": 4, "m": 2})(POINT)
+                assert abs(first[0] * second[1] - first[1] * second[0] - stated) < 1e-14 * abs(stated), row
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("part", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 10))])
 def test_what_other_systems_solve(part: int) -> None:
