@@ -266,6 +266,8 @@ class _Translation:
             return self.operand_end(index + 1, depth + 1)
         if self.kinds[k] not in ("NUMBER", "WORD"):
             return None
+        if text in BARE and k + 1 not in self.partner:  # in sin cos x, and d/dx sin x
+            return self.factors_end(self.power_end(k + 1), depth + 1)
         end = k + 2 if self.kinds[k + 1] == "PRIMES" else k + 1
         return (self.kinds[k] == "WORD" and self.argument_end(end)) or end
 
@@ -420,13 +422,13 @@ class _Translation:
         # A letter alone: in sin^n (x) the parentheses are the argument of the sine.
         return first + 1 if self.kinds[first] == "WORD" else self.operand_end(first) or k
 
-    def factors_end(self, k: int) -> int | None:
+    def factors_end(self, k: int, depth: int = 0) -> int | None:
         """The number of the token behind the argument of a function, x, 2x, x^2 or (x), with letters before it."""
         end = k + (self.kinds[k] == "NUMBER")
         if self.kinds[end] == "WORD" and not is_function(self.texts[end]):
             end = self.letters_end(end)
         elif end == k or self.texts[end] in FRACTIONS | {"\\sqrt"}:
-            end = self.operand_end(end) or end
+            end = self.operand_end(end, depth) or end
         if end == k:
             return None
         is_call = self.texts[k] in ("(", "[") and self.partner.get(k) == end - 1

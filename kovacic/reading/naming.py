@@ -21,8 +21,8 @@ from kovacic.equation import DEFAULT_VARIABLE, ENERGY, EULER, UNKNOWN
 from kovacic.errors import InputError, ParseError
 from kovacic.limits import DEFAULT_LIMITS, Limits
 from kovacic.reading.lexer import DERIVATIVES, PRIME, Token
-from kovacic.reading.names import FUNCTION_NAMES, INSTEAD, LETTER, NUMBER_NAMES, is_function, is_letter, unglued
-from kovacic.reading.notations import ParserTokens, pattern
+from kovacic.reading.names import BARE, FUNCTION_NAMES, INSTEAD, LETTER, NUMBER_NAMES, is_function, is_letter, unglued
+from kovacic.reading.notations import OPENING, ParserTokens, pattern
 from kovacic.reading.parser import excerpt, parse
 
 #: Names that stand for the variable where they are the only one; others might be parameters of an equation in x.
@@ -36,12 +36,15 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
-_ROOT = pattern(r"\^ 1 / (\d+)")
+#: x^1/2, x^-3/2; e^-x^2/2 and e^-2*x, without blanks; 1/2m before a derivative.
+_ROOT = pattern(r"\^ ((?:- )?1|- \d+) / (\d+)")
+_EXPONENTIAL = r"(e~\^~(?:-~)?(?:[^\W\d]\w*(?:~\^~\w+)?(?=~/)|(?!{x} )[\w.]+(?=~\*~{x}(?!\S))))~([*/])~(\w+)"
+_DIVISOR = pattern(rf"/~([\d.]+(?:~\w+)+)(?=(?: \)|\x20) (?:{_NAME}'|(?:diff|Derivative) \())")
 #: Patterns with two readings, the message and the hint: e^2x is e^(2x) or e^2 x, 1e-3y is 0.001 y or e - 3 y.
 _EXPONENT = (
-    r"e \^ ((?:- )?[\d.]+)~(NAME)(?! \()",
+    r"BASE \^ ((?:- )?[\d.]+)~(NAME)(?! \()",
     "{0} can be read in two ways",
-    "write e^({1}*{2}) or e^({1})*{2}",
+    "write {base}^({1}*{2}) or {base}^({1})*{2}",
 )
 _POWER_OF_TEN = r"([\d.]+~[eE]~[-+]~\d+)~(NAME'*)", "{0} can be read in two ways", "write {1}*{2} for the decimal"
 _DECIMAL = (
@@ -58,9 +61,13 @@ _STIFFNESS = (
 _GLUED_INDEX = re.compile(rf"{LETTER}_\d+([^\W\d_]+)")
 #: y'', diff(y, x), diff(y(x), x), and diff((y(x)), x) for d/dx(y(x)).
 _DIFFERENTIATED = pattern(
-    rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?:(?= ({_NAME}) [(,)])| \((?= ({_NAME}) \( {_NAME} \) \)))"
+    rf"({_NAME})'+|(?:{'|'.join(DERIVATIVES)}) \((?:(?= ({_NAME}) [(,)](?! \2 ))| \((?= ({_NAME}) \( {_NAME} \) \)))"
 )
 _NAME_KINDS = frozenset({"NAME", "PRIMED", "HEAD"})
+#: What may stand behind an operand that it belongs to, or not: a factor, an exponent.
+_FACTORS = frozenset({"STAR", "NUMBER", "NAME", "PRIMED", "OPERATOR", "HEAD", "LPAR"})
+_POWERS = frozenset({"CIRCUMFLEX", "SUPERSCRIPT"})
+_FOLLOWING = _FACTORS | _POWERS | {"SLASH"}
 
 
 class Source(NamedTuple):
@@ -103,10 +110,11 @@ class Vocabulary:
             raise InputError(said, hint="name another variable: var='x'", shell="name another variable: --var x")
         _check_readings(tokens, _DECIMAL[0].replace("{x}", x), *_DECIMAL[1:])
         split, products = self._with_products(tokens, x, y)
-        if x != "e":
-            _check_readings(split, *_EXPONENT, unknown=y)
+        base = "e" if "\\" in tokens.text else rf"(?:e|{re.escape(x)}|[\d.]+|CLOSE)"  # in LaTeX, ^2 ends with the digit
+        _check_readings(split, _EXPONENT[0].replace("BASE", base), *_EXPONENT[1:], unknown=y)
+        _check_ends(tokens, x, y)
         named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
-        guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
+        guesses = [*_guesses(tokens, x), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
             named = tokens.of(new)
@@ -202,11 +210,17 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-def _guesses(tokens: ParserTokens) -> Iterator[str]:
+def _guesses(tokens: ParserTokens, x: str) -> Iterator[str]:
     """Notes on readings that may not be the intended ones: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
-    found = _ROOT.search(tokens.line)
-    if found:
-        yield "^1/{0} was read as (...)^1 divided by {0}; a root is written ^(1/{0})".format(found[1])
+    for number, below in _ROOT.findall(tokens.line)[:1]:
+        n = number.replace(" ", "")
+        yield f"^{n}/{below} was read as (...)^{n} divided by {below}; a root is written ^({n}/{below})"
+    for power, sign, behind in pattern(_EXPONENTIAL.replace("{x}", re.escape(x))).findall(tokens.spaced):
+        shown = power.replace(" ", "")
+        yield f"{shown}{sign}{behind} was read as ({shown}){sign}{behind}"
+    for divisor in _DIVISOR.findall(tokens.spaced):
+        shown = divisor.replace(" ", "")
+        yield f"/{shown} was read as /({shown})"
     for opening, k in tokens.partners.items():
         head = opening - 1
         is_bare = tokens[k].start == tokens[k].end and tokens.kinds[head] == "HEAD"
@@ -219,13 +233,48 @@ def _check_readings(
     tokens: ParserTokens, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
 ) -> None:
     """Raises `ParseError` for a pattern with two readings, unless it ends with `unknown`; `ends` complete the hint."""
-    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if "e" in tokens.text.lower() else ():
+    may_occur = any(sign in tokens.text for sign in "eE^")
+    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if may_occur else ():
         parts = [part.replace(" ", "") for part in found.groups()]
         if parts[-1] != unknown:
             begin, behind = tokens.span(found)
+            begin = {last: first for first, last in tokens.partners.items()}.get(begin, begin)  # (x + 1)^2n
             whole = tokens.piece(begin, behind)
-            shown, shell = (hint.format(whole, *parts) + end for end in ends)
+            shown, shell = (hint.format(whole, *parts, base=whole.rpartition("^")[0]) + end for end in ends)
             raise tokens.error(ParseError, said.format(whole, *parts), begin, behind, hint=shown, shell=shell)
+
+
+def _check_ends(tokens: ParserTokens, x: str, y: str) -> None:
+    """Raises `ParseError` where the operand of d/dx, or of a function without parentheses, may go on: d/dx x y', sin a*x."""
+    for opening, closing in tokens.partners.items():
+        head, end, behind = opening - 1, closing, closing + 1
+        name, sign = tokens.pieces[head], tokens.piece(head, opening)
+        is_operator = name in DERIVATIVES and sign not in ("", *DERIVATIVES)
+        is_operator &= tokens[head].end <= tokens[opening + 1].start  # d/dx y, not dy/dx
+        if tokens.kinds[head] != "HEAD" or not (is_operator or name in BARE):
+            continue
+        if is_operator:
+            end -= 4  # diff(y, x, 1)
+        elif tokens.are(behind, "CIRCUMFLEX") and tokens[behind].start == tokens[behind].end:
+            behind += 2  # sin^2 x is sin(x)^2
+        follows = tokens.kinds[behind]
+        inside = [piece.rstrip(PRIME) for piece in tokens.pieces[opening + 1 : end]]
+        gap = tokens.text[tokens[head].end : tokens[opening + 1].start]
+        if is_operator:
+            is_enclosed = tokens.partners.get(opening + 1) == end - 1 or tokens.are(behind + 1, "NUMBER")
+            is_clear = (
+                not inside or (y in inside and is_enclosed and follows not in _POWERS) or follows not in _FOLLOWING
+            )
+        else:
+            is_clear = x in inside or tokens.pieces[behind].rstrip(PRIME) == y or bool(OPENING & {*gap})
+            is_clear = is_clear or follows not in _FACTORS
+        if not is_clear:
+            factor = behind + (follows in ("STAR", "SLASH", "CIRCUMFLEX"))
+            last = tokens.partners.get(factor + (tokens.kinds[factor] == "HEAD"), factor)
+            rest = tokens.text[tokens[end - 1].end : tokens[last].end]
+            hint = f"write {sign}({tokens.piece(opening + 1, end)}{rest}) or ({tokens.piece(head, end)}){rest}"
+            said = f"the {'operand' if is_operator else 'argument'} of {sign} can be read in two ways"
+            raise tokens.error(ParseError, said, head, last + 1, hint=hint)
 
 
 def _with_factors(tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:

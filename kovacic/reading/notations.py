@@ -79,6 +79,9 @@ class Tokens(list[Token]):
         opened: list[int] = []
         for k, (_, text, _, _) in enumerate(self):
             is_bar = bool(opened) and self[opened[-1]].text == "|"
+            if text == "|" and (k == 0 or self[k - 1].text in "([{+-*/^=" or opened[-1:] == [k - 1]):
+                opened.append(k)  # ||x| - 1|: nothing is there that it could close
+                continue
             if is_bar and text in CLOSING:
                 opened.pop()
             if opened and (text in CLOSING or (is_bar and text == "|")):
@@ -251,6 +254,9 @@ _SYNONYMS = {
 
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _SLOPE = r"(?:diff|Derivative) \( (LETTER) \( (LETTER) \) , \2 \)"
+_POINT = r"((?:[^{}()=\s]+ +){1,9})"
+_D = r"d(?: )?\\?LETTER"
+_RATE = rf"\\?LETTER [\x27˙]+|{_D} / {_D}|\\frac \{{ {_D} \}} \{{ {_D} \}}"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
 NOTATIONS = (
     Rewrite("Julia", r"Differential \( (LETTER) \)(?= \()", r"d / d\1"),
@@ -281,6 +287,11 @@ NOTATIONS = (
         "raised primes",
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
+    ),
+    Rewrite("evaluated at", rf"\| _ \{{ LETTER = {_POINT}\}}", lambda m: f"( {' '.join(m[1].split())} )"),
+    Rewrite("y(x=0)", rf"(?<=[\w\x27]\x20)\( LETTER = {_POINT}\)(?= ==? )", lambda m: f"( {' '.join(m[1].split())} )"),
+    Rewrite(
+        "(dy/dx)(0)", rf"OPEN ({_RATE}) CLOSE(?= OPEN (?:- )?(?:[\d.]+|\\?pi|π) )", lambda m: " ".join(m[1].split())
     ),
     Rewrite("indices", r"(?P<y>[a-zA-Z])_(?P<x>[xytzsr])(?P<second>(?P=x))?", _by_index),
 )
@@ -317,6 +328,7 @@ AROUND = (
         rf"{_NO_INDEX}\\(?:text|textrm|mbox|textnormal) \{{ {_NO_NAME}((?:(?:[^\W\d_]+|[^\w\s}}]) ){{0,99}})\}}",
         kind="TEXT",
     ),
+    Rewrite("no delimiter", r"\\(?:left|right) \."),
     Rewrite("breaks", r"\\\\|\\quad|\\qquad", "\n"),
     Rewrite("the end of a line", r"\\$"),
     Rewrite(

@@ -205,7 +205,6 @@ class _Parser:
         self.reduce(_IMPLICIT, k)
         level, slash = self.pending[-1]
         if level == _PRODUCT and self.kinds[slash] == "SLASH" and self.is_derivative(k):
-            self.operands[-1].split = 0
             self.reduce(_PRODUCT, k)
         self.pending.append((_IMPLICIT, k))
         return _PREFIX[self.kinds[k]](self, k)
@@ -214,6 +213,12 @@ class _Parser:
         piece = self.pieces[k]
         is_call = self.kinds[k] == "HEAD" and piece in DERIVATIVES
         return is_call or piece.endswith(PRIME) or self.kinds[k] == "OPERATOR"
+
+    def is_in_factor(self, begin: int, end: int) -> bool:
+        """True for a divisor without blanks, apart from the derivative: 2m in 1/2m y'' and (1/2m) y'', not in 1/2 m y''."""
+        is_enclosed = self.kinds[end] == "RPAR"
+        *gaps, last = (self.tokens[j].end < self.tokens[j + 1].start for j in range(begin, end))
+        return (is_enclosed or last) and not any(gaps) and self.is_derivative(end + is_enclosed)
 
     def close(self, k: int) -> bool:
         self.complete(k)
@@ -330,15 +335,13 @@ class _Parser:
             left.split = left.split or right.begin
         else:
             is_product = self.kinds[k] == "STAR"
-            if right.split and not is_product:
-                # (1/2m) y'': the quotient is the factor of a derivative.
-                is_factor = self.kinds[end] == "RPAR" and self.is_derivative(end + 1)
-                if not is_factor:  # a/b c, where c begins with token `right.split`
-                    spans = ((left.begin, k), (right.begin, end), (right.begin, right.split), (right.split, end))
-                    above, below, first, rest = (excerpt(self.tokens.piece(*span)) for span in spans)
-                    hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
-                    said = "a product without a sign after / can be read in two ways"
-                    raise self.tokens.error(ParseError, said, left.begin, end, hint=hint)
+            if right.split and not is_product and not self.is_in_factor(right.begin, end):
+                # a/b c, where c begins with token `right.split`
+                spans = ((left.begin, k), (right.begin, end), (right.begin, right.split), (right.split, end))
+                above, below, first, rest = (excerpt(self.tokens.piece(*span)) for span in spans)
+                hint = f"write {above}/({below}) or ({above}/{first})*{rest}"
+                said = "a product without a sign after / can be read in two ways"
+                raise self.tokens.error(ParseError, said, left.begin, end, hint=hint)
             operation = self.arithmetic.multiply if is_product else self.arithmetic.divide
             left.value = operation(left.value, right.value)
             left.split = 0

@@ -296,6 +296,10 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
         ("[y'' + 4*y = 0, y(0) = 3]", "C2*sin(2*x) + 3*cos(2*x)"),
         ("rhs(dsolve(y'' + 4*y = 0, y(0) = 3))", "C2*sin(2*x) + 3*cos(2*x)"),
         ("dsolve(); y'' + y = 0, y(0) = 3", "C2*sin(x) + 3*cos(x)"),
+        ("y'' + y = 0, y(0) = 1, (dy/dx)(0) = 2", "2*sin(x) + cos(x)"),
+        ("x'' + x = 0, [x'](0) = 2, x(t=0) = 1", "2*sin(t) + cos(t)"),
+        (r"y'' + y = 0, \left(\frac{dy}{dx}\right)(0) = 2, y|_{x=\pi/2} = 2", "C1*cos(x) + 2*sin(x)"),
+        (r"y'' + y = 0, \left.\frac{dy}{dx}\right|_{x=0} = 2, y(0) = 1", "2*sin(x) + cos(x)"),
     ],
 )
 def test_values_behind_the_equation_are_taken(text: str, solution: str) -> None:
@@ -668,6 +672,51 @@ def test_what_can_be_read_in_two_ways_is_refused_with_what_to_type(text: str, wr
         read_question(text, None, None, None, kovacic.Limits())
     assert refused.value.hint
     read_question(text.replace(written, typed), None, None, None, kovacic.Limits())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "y'' + y = sin 2*x",
+        "y'' + y = cos omega*t",
+        "y'' + y = sin 2(x+1)",
+        "y'' + y = ln^2 n*x",
+        "y'' + y = x^2n",
+        "y'' + y = (1-x)^2n",
+        "y'' + y = 2^-3x",
+        "y'' + d/dx x y = 0",
+        "y'' + (d/dx) x y = 0",
+        "d/dx (1-x^2) dy/dx + y'' = 0",
+        "y'' + d/dx sin x y = x",
+        "y'' + y = d/dx x^2",
+        "y'' + d/dx y/x = 0",
+        "1/2 m y'' + y = 0",
+        "y'' + 1/2 x y' + y = 0",
+        "y'' + (1/2my') + y = 0",
+    ],
+)
+def test_both_readings_of_what_is_refused_can_be_written_and_differ(text: str) -> None:
+    with pytest.raises(kovacic.ParseError, match="two ways") as refused:
+        read_input(text, exponentials=True)
+    readings = str(refused.value.hint).removeprefix("write ").split(" or ")
+    first, second = (
+        read_input(text.replace(refused.value.excerpt, reading), exponentials=True) for reading in readings
+    )
+    assert first.equation != second.equation
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("y'' + x^-3/2*y = 0", r"a root is written ^(-3/2)"),
+        ("y'' + y = e^-x^2/2", "e^-x^2/2 was read as (e^-x^2)/2"),
+        ("y'' + y = e^-2*x", "e^-2*x was read as (e^-2)*x"),
+        ("y'' + 1/2x y' = 0", "/2x was read as /(2x)"),
+        ("(ħ²/2m) y'' = y", "/2m was read as /(2m)"),
+    ],
+)
+def test_the_less_likely_of_two_readings_is_said(text: str, said: str) -> None:
+    assert any(said in each for each in read_input(text).guesses)
 
 
 def test_the_imaginary_unit_is_a_capital_letter_which_is_said() -> None:
