@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import accumulate
 
 # A node is a token, or the list of those between braces.
 Node = str | list["Node"]
@@ -18,6 +19,7 @@ LINE = 60
 _LATEX_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+|.", re.DOTALL)
 _BETWEEN_FACTORS = re.compile(r"(?:(?<=[})])(?<!_\{1\})|(?<=[^\w\\]\w)) *(?=\\sqrt|\\left|\\bigl|{}_)|(?<=[})]) (?=\()")
 _FRACTION_COMMANDS = (r"\frac", r"\tfrac")
+_FACTOR_COMMANDS = (*_FRACTION_COMMANDS, r"\sqrt", r"\left", r"\operatorname", r"\cos", r"\sin", r"\exp", r"\log")
 _WITH_ARGUMENT = (r"\operatorname", r"\text", r"\mathrm", r"\mathbb", r"\begin", r"\end", "_", "^")
 _WIDTHS = {"+": 2.4, "-": 2.4, "=": 2.4, r"\cos": 3, r"\sin": 3, r"\exp": 3}
 _NO_WIDTH = ("", "{", "}", "$", " ", r"\left", r"\right", r"\displaystyle", r"\,", r"\;")
@@ -110,7 +112,9 @@ class _LineBreaker:
             if written.endswith("e") and _width(exponent) > self.most:
                 written = rf"{written[:-1]}\exp\bigl({self.written(exponent)}\bigr)"
             else:
-                written += self._construct(construct)
+                piece = self._construct(construct)
+                is_broken = construct[0] in _FRACTION_COMMANDS and piece != _verbatim(construct)
+                written += rf"\bigl({piece}\bigr)" if is_broken and _begins_with_factor(nodes) else piece
         return written
 
     def _construct(self, nodes: list[Node]) -> str:
@@ -148,12 +152,10 @@ class _LineBreaker:
     def _factor(self, nodes: list[Node]) -> str:
         """In parentheses, if it is a sum or a product."""
         parts = [node for node in nodes if node != " "]
-        end = 2 if parts[0] == r"\sqrt" else 1
-        if parts[0] == r"\left":
-            end = _matching_right(parts, 1) + 2
-        is_power = len(parts) == end + 2 and parts[end] == "^"
+        rest = parts[_length_of_construct(parts) :]
+        is_one = parts[0] not in _FRACTION_COMMANDS and (not rest or (rest[0] == "^" and len(rest) == 2))
         written = self.written(nodes)
-        return written if is_power or len(parts) == end else rf"\bigl({written}\bigr)"
+        return written if is_one else rf"\bigl({written}\bigr)"
 
 
 def _length_of_construct(nodes: list[Node]) -> int:
@@ -162,19 +164,17 @@ def _length_of_construct(nodes: list[Node]) -> int:
     if first == r"\sqrt":
         return nodes.index("]") + 2 if nodes[1:2] == ["["] else 2
     if first == r"\left":
-        return _matching_right(nodes, 1) + 2
+        depths = accumulate({r"\left": 1, r"\right": -1}.get(str(node), 0) for node in nodes)
+        return [*depths].index(0) + 2
     if first in _FRACTION_COMMANDS:
         return 3
     return 2 if first in _WITH_ARGUMENT else 1
 
 
-def _matching_right(nodes: list[Node], k: int) -> int:
-    r"""The index of the \right that matches the \left before k."""
-    depth = 1
-    while depth:
-        depth += {r"\left": 1, r"\right": -1}.get(str(nodes[k]), 0)
-        k += 1
-    return k - 1
+def _begins_with_factor(nodes: list[Node]) -> bool:
+    """Would what follows a/b be read as a factor of b?"""
+    after = next((node for node in nodes if node != " "), "")
+    return isinstance(after, list) or after.isalnum() or after == "(" or after in _FACTOR_COMMANDS
 
 
 def _verbatim(nodes: list[Node]) -> str:
@@ -183,7 +183,7 @@ def _verbatim(nodes: list[Node]) -> str:
     for node in nodes:
         if isinstance(node, list):
             written += f"{{{_verbatim(node)}}}"
-        elif node[0] == "\\" and node[-1].isalpha():
+        elif node[0] == "\\" and node[1:].isalpha():
             written += f"{node} "
         else:
             written += node

@@ -12,7 +12,7 @@ from hypothesis import given
 
 import kovacic
 from kovacic.views.sentences import formulas_of, normal_form_of
-from kovacic.writing.breaking import breakable, pieces
+from kovacic.writing.breaking import breakable, pieces, width
 from kovacic.writing.formula import Formulas, latex_text, with_single_powers
 
 
@@ -27,20 +27,86 @@ def test_a_broken_formula_has_the_same_value(function: RatFunc) -> None:
 
 
 @pytest.mark.parametrize(
-    ("latex", "written"),
+    ("latex", "line", "written"),
     [
-        (r"y = \sqrt[3]{x + 1 + x^{2}}", r"y = \bigl(x + 1 + x^{2}\bigr)^{1/3}"),
-        (r"e^{x + 1 + x^{2}} z", r"\exp\bigl(x + 1 + x^{2}\bigr) z"),
-        (r"\frac{\left(x + 1 + x^{2}\right)^{2}}{2 x}", r"\bigl(x + 1 + x^{2}\bigr)^{2}/\allowbreak \bigl(2 x\bigr)"),
+        (r"y = \sqrt[3]{x + 1 + x^{2}}", 8, r"y = \bigl(x + 1 + x^{2}\bigr)^{1/3}"),
+        (r"e^{x + 1 + x^{2}} z", 8, r"\exp\bigl(x + 1 + x^{2}\bigr) z"),
         (
-            r"{}_{2}F_{1}\left(\begin{matrix} a, b \\ c \end{matrix}\middle| {x} \right)",
-            r"{}_{2}F_{1}\bigl( a, b ; c ; {x}\bigr)",
+            r"\frac{\left(x + 1 + x^{2}\right)^{2}}{2 x}",
+            8,
+            r"\bigl(x + 1 + x^{2}\bigr)^{2}/\allowbreak \bigl(2 x\bigr)",
         ),
-        (r"\int e^{x}\, dx = \cos{\left(x \right)}", r"\int e^{x}\, dx = \cos{\left(x \right)}"),
+        (
+            r"{}_{2}F_{1}\left(\begin{matrix}a, b \\ \frac{c}{2} \end{matrix}\middle|{x} \right)",
+            8,
+            r"{}_{2}F_{1}\bigl(a, b ; \tfrac {c}{2} ; {x} \bigr)",
+        ),
+        (r"\int e^{x}\, dx = \cos{\left(x \right)}", 8, r"\int  e^{x}\, dx = \cos {\left (x \right )}"),
+        # What is as wide as half a line stays, and what is wider by a digit doesn't.
+        (
+            r"\sqrt{1234} \left(1234\right) {1234} e^{1234} \frac{1234}{5}",
+            8,
+            r"\sqrt {1234}\allowbreak \left (1234\right ) {1234} e^{1234} \frac {1234}{5}",
+        ),
+        (
+            r"\sqrt{12345}z\left(12345\right) y^{12345} 3e^{12345} \frac{12345}{5}x",
+            8,
+            r"\bigl(12345\bigr)^{1/2}z\allowbreak \bigl(12345\bigr) y^{12345} 3\exp\bigl(12345\bigr)"
+            r"\allowbreak \bigl(12345/\allowbreak 5\bigr)x",
+        ),
+        (
+            "123456789012+1234567890123 + (123456789012345678901234)",
+            48,
+            r"123456789012+1234567890\allowbreak 123 + (1234567890\allowbreak 1234567890\allowbreak 1234)",
+        ),
+        (r"\frac{" + 60 * "7" + "}{3}", 60, r"\frac{" + 60 * "7" + "}{3}"),
+        (r"\frac{" + 61 * "7" + "}{3}", 60, 6 * r"7777777777\allowbreak " + r"7/\allowbreak 3"),
+        (
+            r"\left(a + \left(b + 3\right) c\right) \left[x + 3\right] \P x\, \{z\}",
+            8,
+            r"\bigl(a + \bigl(b + 3\bigr) c\bigr)\allowbreak \left [x + 3\right ] \P  x\, \{z\}",
+        ),
+        (
+            r"\frac{\sqrt[3]{x}}{\left(x + 1\right)} + \frac{\sqrt{x} y + 5}{c^{2}} + \frac{\frac{x + 1}{22}}{e^{z + 3} y}",
+            3,
+            r"\sqrt [3]{x}/\allowbreak \bigl(x + 1\bigr) + \bigl(\sqrt {x} y + 5\bigr)/\allowbreak c^{2}"
+            r" + \bigl(\bigl(x + 1\bigr)/\allowbreak 22\bigr)/\allowbreak \bigl(\exp\bigl(z + 3\bigr) y\bigr)",
+        ),
+        (
+            r"x e\frac{x + 7}{y}, \sqrt[3]{x + y} u v f(a, b) 12345}+e^",
+            8,
+            r"x e\allowbreak \bigl(x + 7\bigr)/\allowbreak y,\allowbreak  \bigl(x + y\bigr)^{1/3} u v"
+            r" f(a,\allowbreak  b) 12345}+e^",
+        ),
+        # a/b before a factor would be a/(b y).
+        (
+            r"\frac{a + 1}{b} y - \frac{a + 1}{b} + \frac{a + 1}{b} \left(x\right)\frac{a + 1}{b}{}_{2}F",
+            3,
+            r"\bigl(\bigl(a + 1\bigr)/\allowbreak b\bigr) y - \bigl(a + 1\bigr)/\allowbreak b"
+            r" + \bigl(\bigl(a + 1\bigr)/\allowbreak b\bigr)\allowbreak \left (x\right )"
+            r"\allowbreak \bigl(\bigl(a + 1\bigr)/\allowbreak b\bigr)\allowbreak {}_{2}F",
+        ),
+        (
+            r"\frac{a + 1}{b}(x)\, \int \frac{a + 1}{b}\, dx",
+            3,
+            r"\bigl(\bigl(a + 1\bigr)/\allowbreak b\bigr)(x)\, \int \bigl(a + 1\bigr)/\allowbreak b\, dx",
+        ),
     ],
 )
-def test_how_long_formulas_are_written_on_a_line(latex: str, written: str) -> None:
-    assert breakable(latex, 8).replace(" ", "") == written.replace(" ", "")
+def test_how_long_formulas_are_written_on_a_line(latex: str, line: int, written: str) -> None:
+    assert breakable(latex, line) == written
+
+
+@pytest.mark.parametrize(
+    ("latex", "characters"),
+    [
+        (r"\cos a + \sin b", 10.6),
+        (r"\exp 123 - \frac{4567}{8} = \sqrt{x^{2}}", 17.7),
+        (r"\frac{1}{23456}_{1234567890}", 12),
+    ],
+)
+def test_how_wide_a_formula_is(latex: str, characters: float) -> None:
+    assert width(latex) == pytest.approx(characters)
 
 
 def test_a_broken_formula_can_be_broken_further() -> None:
@@ -53,8 +119,14 @@ def test_a_broken_formula_can_be_broken_further() -> None:
 def test_the_pieces_of_a_formula_are_the_formula() -> None:
     formula = r"y = \frac{" + " + ".join(f"{10**k} x^{{{k}}}" for k in range(40)) + r"}{\sqrt{x}} - e^{x}"
     assert "".join(pieces(formula)).replace(" ", "") == breakable(formula).replace(r"\allowbreak", "").replace(" ", "")
-    assert len(pieces(formula)) > 40
+    assert len(pieces(formula)) == 97
     assert pieces("y = -x") == ["y = -x"]
+    with_parentheses = r"y = \left(x + 1\right) e^{x + 2}z + \left[3\right] - 5"
+    assert pieces(with_parentheses) == [r"y = \left(x + 1\right) e^{x + 2}z ", r"+ \left[3\right] ", "- 5"]
+    assert pieces(r"a(-b) + e^{2}- c = -d") == ["a(-b) ", "+ e^{2}", "- c = -d"]
+    sevens = 61 * "7"
+    assert pieces(rf"\frac{{{sevens[1:]}}}{{3}}") == [rf"\frac{{{sevens[1:]}}}{{3}}"]
+    assert len(pieces(rf"\frac{{{sevens}}}{{3}}")) == 8
 
 
 def test_rational_functions_in_latex() -> None:
