@@ -63,6 +63,7 @@ def solve(
     kovacic solve --as mathematica "x^2 + 3"
     """
     from kovacic.reading.pieces import Paste
+    from kovacic.views.sentences import is_inhomogeneous
     from kovacic.views.text import render, solution_lines
 
     if form != "json":
@@ -84,8 +85,7 @@ def solve(
     def lines(answer: Solution) -> Iterable[str]:
         solutions: Iterable[str] | None = None
         if not no_solutions:
-            homogeneous = answer.equation is None or answer.equation.is_homogeneous
-            solutions = solution_lines(answer) if homogeneous else _inhomogeneous(answer)
+            solutions = _inhomogeneous(answer) if is_inhomogeneous(answer) else solution_lines(answer)
         return map(fitted, render(answer, style=options.styled, solutions=solutions))
 
     show = options.in_form(
@@ -101,10 +101,14 @@ def solve(
 
 def _assignments(answer: Solution, language: str) -> Iterator[str]:
     """The equation and the verdict as a comment, and any two solutions, in Mathematica, Maple or Julia."""
+    from kovacic.views.sentences import OF_HOMOGENEOUS, is_inhomogeneous
     from kovacic.writing.code import CODE_LANGUAGES, as_code
 
     yield CODE_LANGUAGES[language].comment.format(answer)
-    for k, y in enumerate(answer.solutions or answer.special, start=1):
+    found = answer.solutions or answer.special
+    if found and is_inhomogeneous(answer):
+        yield CODE_LANGUAGES[language].comment.format(OF_HOMOGENEOUS)
+    for k, y in enumerate(found, start=1):
         yield CODE_LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
 
 

@@ -71,7 +71,7 @@ class Solution(Answer):
     >>> answer.solutions
     (cos(x)/sqrt(x), sin(x)/sqrt(x))
     >>> answer
-    <Solution of x^2*y'' + x*y' + (x^2 - 1/4)*y = 0: case 1, omega = c>
+    <Solution of x^2*y'' + x*y' + (x^2 - 1/4)*y = 0: case 1, omega = i or -i>
     """
 
     @classmethod

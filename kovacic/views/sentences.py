@@ -25,6 +25,8 @@ from kovacic.writing.formula import Formulas, Math, caret, latex_text, of_sympy,
 SOLVABLE = "Liouvillian solutions exist"
 UNSOLVABLE = "no Liouvillian solution exists"
 NOT_DECIDED = "undecided"
+#: What y1 and y2 are if the equation has a right-hand side.
+OF_HOMOGENEOUS = "two solutions of the homogeneous equation"
 
 
 def formulas_of(answer: Answer | Parsed) -> Formulas:
@@ -38,6 +40,10 @@ def equation_of(answer: Answer | Parsed) -> Math:
     if equation is None:
         return normal_form_of(answer)
     return Math(str(equation), latex_text(equation.text(caret=False)))
+
+
+def is_inhomogeneous(answer: Answer) -> bool:
+    return answer.equation is not None and not answer.equation.is_homogeneous
 
 
 def normal_form_of(answer: Answer | Parsed, y: str = "y") -> Math:

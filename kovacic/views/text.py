@@ -10,23 +10,25 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, visible
+from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import Paste
 from kovacic.views.sentences import (
     NOT_DECIDED,
+    OF_HOMOGENEOUS,
     SOLVABLE,
     UNSOLVABLE,
     equation_of,
     formulas_of,
     normal_form_of,
     of_degree,
+    is_inhomogeneous,
     omega_lines,
-    omega_math,
     reason,
     solutions_of,
     verdict_in_words,
 )
 from kovacic.writing.escaped import in_one_line
-from kovacic.writing.formula import Math, text_of_words
+from kovacic.writing.formula import Math, of_sympy, text_of_words
 
 if TYPE_CHECKING:
     from kovacic.writing.document import Sentence
@@ -50,7 +52,7 @@ def one_line(answer: Answer) -> str:
     elif riccati.degree > 1:
         said = f"case {answer.case}, omega {of_degree(riccati.degree)}"
     else:
-        said = f"case {answer.case}, omega = {omega_math(riccati, formulas_of(answer)).text}"
+        said = f"case {answer.case}, {', '.join(omega_lines(answer))}"
     return f"{_given_text(answer)}: {said}"
 
 
@@ -144,9 +146,14 @@ def _lines_of_exclusions(answer: Answer) -> Iterator[str]:
 def latex_view(answer: Answer) -> str:
     """The equation and any two solutions, between dollar signs."""
     found, _ = _solutions_in_time(answer)
-    lines = [equation_of(answer).latex, *(name.equals(value).latex for name, value in found)]
+    lines = [equation_of(answer).latex]
+    if answer.equation is not None and answer.change is not None:
+        lines.append(Math.of(answer.variable).equals(of_sympy(function_of_x(answer.equation))).latex)
     if answer.status in _NEITHER:
-        lines.insert(1, rf"\text{{{_NEITHER[answer.status]}}}")
+        lines.append(rf"\text{{{_NEITHER[answer.status]}}}")
+    if found and is_inhomogeneous(answer):
+        lines.append(rf"\text{{{OF_HOMOGENEOUS}}}")
+    lines += (name.equals(value).latex for name, value in found)
     body = r" \\ ".join(lines)
     return rf"$\displaystyle \begin{{array}}{{l}} {body} \end{{array}}$"
 
@@ -173,6 +180,7 @@ def html_view(answer: Answer) -> str:
     for name, value in pair:
         short = value.shortened
         rows.append((name, value if short == value else Math(short.text, "")))
+    rows += [("note", OF_HOMOGENEOUS)] if pair and is_inhomogeneous(answer) else []
     rows += [("note", note) for note in notes]
     form = derived.closed_form(answer) if pair else None
     if form is not None:

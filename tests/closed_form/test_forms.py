@@ -148,6 +148,8 @@ def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
         "y1 := AiryAi(x);",
         "y2 := AiryBi(x);",
     ]
+    assert run(["solve", "--as", "julia", "y'' = y + x"]) == 0
+    assert capsys.readouterr().out.splitlines()[1] == "# two solutions of the homogeneous equation"
 
 
 THIRD, FIFTH, SEVENTH = (Fraction(1, n) for n in (3, 5, 7))

@@ -58,6 +58,21 @@ def test_the_interpreter_shows_the_verdict() -> None:
     assert repr(kovacic.solve("x")) == "<Solution of y'' = x y: no Liouvillian solution>"
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "latex"),
+    [
+        ("y'' + y = tan(x)", "omega = i or -i", "two solutions of the homogeneous equation"),
+        ("y'' = a*y", "omega = c/2, where c is any root of c^2 - 4*a", r"e^{\sqrt{a} x}"),
+        ("y'' + exp(2*x)*y = 0", "no Liouvillian solution", "t = e^{2 x}"),
+    ],
+)
+def test_one_line_and_formulas_explain_their_letters(text: str, line: str, latex: str) -> None:
+    answer = kovacic.solve(text)
+    assert str(answer).endswith(line)
+    assert latex in answer._repr_latex_()
+    assert ("homogeneous" in latex) == ("homogeneous" in answer._repr_html_())
+
+
 def test_a_status_is_equal_to_its_string() -> None:
     assert kovacic.solve("x").status == "none"
     assert kovacic.solve("2").status == "liouvillian" == kovacic.Status.LIOUVILLIAN
