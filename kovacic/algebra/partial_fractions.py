@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from kovacic.algebra.factors import squarefree_factors
 from kovacic.algebra.poly import Poly
@@ -64,6 +65,35 @@ def decompose(r: RatFunc) -> Decomposition:
     exact = RatFunc(field.poly([0, *(polynomial[k] / field.poly([k + 1]) for k in range(polynomial.degree + 1))]))
     W, _, residues = reduce_poles(RatFunc(rest, r.den, reduced=True), RatFunc(field.zero))
     return Decomposition(exact + W, residues)
+
+
+class PartialFraction(NamedTuple):
+    """above/factor^power, with an irreducible factor of larger degree."""
+
+    above: Poly
+    factor: Poly
+    power: int
+
+
+def partial_fractions(r: RatFunc) -> tuple[Poly, list[PartialFraction]]:
+    """The polynomial and the fractions whose sum is r, by factors in the order of `Field.factor`, and by powers.
+
+    >>> from kovacic.algebra.rationals import QQ
+    >>> whole, parts = partial_fractions(RatFunc(QQ.poly([1, 0, 1, 1]), QQ.x**2))
+    >>> str(whole), [(str(part.above), str(part.factor), part.power) for part in parts]
+    ('x + 1', [('1', 'x', 2)])
+    """
+    whole, rest = divmod(r.num, r.den)
+    found: list[PartialFraction] = []
+    for factor, k in r.field.factor(r.den):
+        power = factor**k
+        above = rest * (r.den // power).inverse_modulo(power) % power
+        start = len(found)
+        for j in range(k, 0, -1):  # above/factor^k = d_1/factor + d_2/factor^2 + ..., d_k first
+            above, digit = divmod(above, factor)
+            if digit:
+                found.insert(start, PartialFraction(digit, factor, j))
+    return whole, found
 
 
 def reduce_poles(r: RatFunc, slope: RatFunc, apart: Poly | None = None) -> tuple[RatFunc, RatFunc, tuple[Residue, ...]]:

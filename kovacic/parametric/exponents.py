@@ -326,7 +326,8 @@ def degrees_of_solutions(problem: Problem) -> Numbers | None:
     roots: list[ExponentRoot] = []
     singular = singular_places(apart)
     for place in singular:
-        roots += [ExponentRoot(_difference_squared(place) / 4, 1)] * place.degree
+        square = _difference_squared(place)
+        roots += [ExponentRoot(square / 4, 1)] * place.degree if square else []
     weights = sum(place.weight * place.degree for place in singular)
     return Numbers(1 - Fraction(weights) / 2, tuple(roots), apart.field, problem.field, only_signs=True)
 

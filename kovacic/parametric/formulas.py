@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 import sympy
 
 from kovacic.algebra.function_field import FunctionPoly
+from kovacic.algebra.partial_fractions import partial_fractions
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.sparse import by_power, factorisation
@@ -68,20 +69,14 @@ def shortest_form(function: Poly | RatFunc, letter: str = "x") -> str:
     return in_factors if has_sum_below and len(in_factors) <= len(best) + _FOR_FACTORS else best
 
 
-def partial_fractions(S: RatFunc, variable: str) -> str:
+def in_partial_fractions(S: RatFunc, variable: str) -> str:
     """S != 0 as a polynomial in the variable plus fractions with powers of the irreducible factors of its denominator."""
-    whole, rest = divmod(S.num, S.den)
+    whole, fractions = partial_fractions(S)
     degrees = (k for k in range(whole.degree, -1, -1) if whole[k])
     terms = [shortest_form(S.field.poly([0] * k + [whole[k]]), variable) for k in degrees]
-    for factor, k in S.field.factor(S.den):
-        power = factor**k
-        above = rest * (S.den // power).inverse_modulo(power) % power
-        start = len(terms)
-        for j in range(k, 0, -1):  # above/factor^k = d_1/factor + d_2/factor^2 + ..., d_k first
-            above, digit = divmod(above, factor)
-            if digit:
-                top, bottom, names = _as_quotient(RatFunc(digit, factor**j), variable)
-                terms.insert(start, _sum_text([_term_in_factors(top, bottom)], names))
+    for above, factor, k in fractions:
+        top, bottom, names = _as_quotient(RatFunc(above, factor**k), variable)
+        terms.append(_sum_text([_term_in_factors(top, bottom)], names))
     return _joined_terms(terms)
 
 

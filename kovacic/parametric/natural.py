@@ -132,7 +132,9 @@ class Natural(Statement):
         return (0 * over_parameters(self.S.num),) if self.factors is None else self.factors
 
     def rewritten(self, change: Callable[[FunctionPoly], FunctionPoly]) -> Statement:
-        S = RatFunc(change(over_parameters(self.S.num)), change(over_parameters(self.S.den)))
+        den = change(over_parameters(self.S.den))
+        # A change within the field reduces by a relation, under which S stays the same, but with a free constant no square.
+        S = self.S if den.field == self.S.field else RatFunc(change(over_parameters(self.S.num)), den)
         if self.factors is None:
             return replace(self, S=S)
         return replace(self, S=S, factors=tuple(union(map(polynomial_factors, map(change, self.factors)))))
@@ -236,10 +238,13 @@ class Natural(Statement):
         if self.factors is None or any(any(degrees(equation)) for equation in unsolved):
             problem = analyse(self.S, Budget())
             numbers = degrees_of_solutions(problem) if self.m == 1 else zeros_of_forms(problem, self.m)
-        # d + 1 = +-sqrt(b)/2 +- c, or d = 6 + j*a + k*b with integers j and k; without roots S is one on a curve, where it has
-        # other exponents than for free parameters.
+        # d + 1 = +-sqrt(b)/2 +- c, or d = 6 + j*a + k*b with integers j and k.
         if numbers is not None and numbers.roots:
             has_zero = self.factors is None or problem.field.poly([-numbers.constant, 1]) in self.factors
+            if numbers.field == problem.field:
+                squares = (in_lowest_powers(over_parameters(root.square), self.constant) for root in numbers.roots)
+                pairs = zip(squares, numbers.roots, strict=True)
+                numbers = replace(numbers, roots=tuple(root._replace(square=square) for square, root in pairs))
             letters = list[str]()
             for _ in () if numbers.only_signs else numbers.roots:
                 letters.append(free_name([self.letter, *self.setting.names, *letters], *"jkmnl"))

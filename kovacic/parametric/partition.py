@@ -324,7 +324,9 @@ def _on_zeros(
 
     If a verdict is expected, these are the zeros at which something else holds, or nothing is known.
     """
-    for function in functions:
+    number = settings.assumptions.constant
+    on_slice = ((one, irreducible_factors(restriction.in_lowest_powers(one, number))) for one in functions)
+    for function in dict.fromkeys(chain.from_iterable(factors or [one] for one, factors in on_slice)):
         if settings.covers(function):
             continue
         try:

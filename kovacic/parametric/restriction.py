@@ -16,8 +16,9 @@ in everything printed, in values and in solutions they are the user's own.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain, combinations, count
 from math import gcd
 from typing import Any, NamedTuple
@@ -27,6 +28,7 @@ import sympy
 from kovacic.algebra.extension import AlgebraicField, ExtensionPoly, norm
 from kovacic.algebra.factors import product
 from kovacic.algebra.function_field import FunctionField, FunctionPoly
+from kovacic.algebra.partial_fractions import partial_fractions
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc
 from kovacic.algebra.rationals import QQ
@@ -217,7 +219,7 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
         return None
     free = (letter for letter in map("T{}".format, count()) if letter not in names)
     letter, number = next(free), next(free)
-    field = FunctionField((*(name for name in names if name not in (u, v)), letter))
+    field = FunctionField((letter, *(name for name in names if name not in (u, v))))  # a constant stays the last one
     T = field.generator(letter)
     modulus = field.poly([terms.get((p * (degree - k), q * k), 0) for k in range(degree + 1)]).monic()
     theta: Poly = AlgebraicField(field, modulus, number).generator if degree > 1 else -modulus[0]
@@ -234,7 +236,7 @@ def _with_weights(function: FunctionPoly) -> Hypersurface | None:
 class WithFreeConstant(NamedTuple):
     """S with its algebraic constant as one more parameter, as it is shown, and the value of this parameter.
 
-    The denominator of `S` is lifted factor by factor, so that squares remain squares with a free constant.
+    The partial fractions of `S` are lifted one by one, so that poles and exponents are the same with a free constant.
     """
 
     S: RatFunc
@@ -252,22 +254,37 @@ def with_free_constant(S: RatFunc) -> WithFreeConstant:
     while name in names:
         name += "_"
     larger = FunctionField((*names, name))
-    factors = [with_free_generator(S.den.lc, larger)]
-    factors += [with_free_generator(factor, larger) ** k for factor, k in field.factor(S.den)]
-    num = with_free_generator(S.num, larger)
+    free = partial(with_free_generator, larger=larger)
     modulus = QQ.poly([rational_number(c) or 0 for c in field.modulus])
     numbers = AlgebraicField(QQ, modulus, field.name, field.approximation)
     point = ParameterPoint((name,), (numbers.generator,), numbers)
-    return WithFreeConstant(RatFunc(num, product(factors)), RatFunc(num, with_free_generator(S.den, larger)), point)
+    return WithFreeConstant(_in_parts(S, free), RatFunc(free(S.num), free(S.den)), point)
+
+
+def _in_parts(S: RatFunc, free: Callable[[Poly], FunctionPoly]) -> RatFunc:
+    """S with a free constant: in each partial fraction, unless that changes infinity or the values at which S is defined."""
+    whole, fractions = partial_fractions(S)
+    parts = [whole, *(fraction.above for fraction in fractions)]
+    own = {*irreducible_factors(_down(S.cleared()[1].lc))}
+    if all(own.issuperset(irreducible_factors(below)) for part in parts for below in claims.denominators(part)):
+        terms = (RatFunc(free(one.above), free(one.factor) ** one.power) for one in fractions)
+        total = sum(terms, RatFunc(free(whole)))
+        if total.degree == S.degree:
+            return total
+    factors = [free(factor) ** k for factor, k in S.field.factor(S.den)]
+    return RatFunc(free(S.num), product([free(S.den.lc), *factors]))
 
 
 def in_lowest_powers(function: FunctionPoly, constant: ParameterPoint) -> FunctionPoly:
-    """The function with the lowest powers of the constant, the last parameter of its field if there is one."""
-    if not constant.names:
-        return function
+    """The function with the lowest powers of the constant, if that is the last parameter of its field."""
     field = function.field
-    total = with_free_generator(everywhere(field, constant).at(claims.numerator(function)), field)
-    return over_parameters(total / denominator(function))
+    if field.names[-1:] != constant.names:
+        return function
+    here = everywhere(field, constant)
+    below = denominator(function)
+    if not any(degrees(below)[:-1]):  # the inverse of a number has no denominator
+        return with_free_generator(here.at(function), field)
+    return over_parameters(with_free_generator(here.at(claims.numerator(function)), field) / below)
 
 
 def everywhere(field: FunctionField, constant: ParameterPoint) -> Hypersurface:

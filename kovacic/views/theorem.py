@@ -21,7 +21,7 @@ from kovacic.limits import DEFAULT_LIMITS, MOST_CHARACTERS, Budget
 from kovacic.parametric import prose
 from kovacic.parametric.assumptions import WORDS
 from kovacic.parametric.claims import IntegerFamily
-from kovacic.parametric.formulas import partial_fractions, shortest_form, unexpanded
+from kovacic.parametric.formulas import in_partial_fractions, shortest_form, unexpanded
 from kovacic.parametric.integers import INTEGER_LETTERS
 from kovacic.parametric.natural import WITHOUT_FORMULA, Natural
 from kovacic.parametric.parametric_answer import ParametricAnswer
@@ -228,7 +228,7 @@ class _TheoremWriter:
         S = self.answer.S
         if not (isinstance(S.field, FunctionField) and S):
             return Math.of(f"{y}''").equals(Formulas(self.answer.variable, S.field).times(S, y))
-        fractions = Math.of(partial_fractions(S, self.answer.variable))
+        fractions = Math.of(in_partial_fractions(S, self.answer.variable))
         right = Math(f"({fractions.text}) {y}", rf"\left({fractions.latex}\right) {latex_text(y)}")
         return Math.of(f"{y}''").equals(right)
 

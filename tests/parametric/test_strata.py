@@ -41,6 +41,7 @@ LISTS = [
     "a^2*(1-exp(-x))^2 - a*b*exp(-x)",
     "(a*x+b)/(x^2-2)^2 + c/x",
     "(a*x+b)/(x^2+k)^2 + x^2",
+    "a/(x-sqrt(2))^2 + b/(x-1)^2 + c/x^2 + 1",
 ]
 #: Equations whose singular points move into one another, or to infinity, at values of the parameters.
 FORMULAS = {
@@ -68,6 +69,14 @@ def test_points_with_conjugate_exponents_beside_irregular_ones(S: str) -> None:
     answer = kovacic.conditions(S, var="x", max_degree=0)
     assert answer.complete is True
     assert answer.check(10)
+
+
+@pytest.mark.parametrize("constant", ["sqrt(2)", "2^(1/3)", "I"])
+def test_a_double_pole_at_an_algebraic_number_has_its_own_exponents(constant: str) -> None:
+    answer = kovacic.conditions(f"a/(x-{constant})^2 + b/x^2 + 1", var="x", max_degree=0)
+    assert all(region.defined for region in answer.regions)
+    assert str(answer.regions[2].statement).startswith("d + 1 = +-sqrt(4*b + 1)/2 +- sqrt(4*a + 1)/2, d in N")
+    assert type(answer).from_json(answer.to_json()) == answer
 
 
 def test_a_parameter_is_free_where_its_coefficient_vanishes() -> None:

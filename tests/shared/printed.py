@@ -42,11 +42,18 @@ def points(answer: ParametricAnswer, number: int, seed: int = 3) -> Iterator[Par
     yield from islice(found, number - number // 2)
 
 
-def printed_verdict(answer: ParametricAnswer, point: ParameterPoint) -> RegionVerdict | None:
-    """What the list says at a point, read from the top; None where S isn't defined."""
+def is_defined(answer: ParametricAnswer, point: ParameterPoint) -> bool:
+    """True if S is defined at the point."""
     try:
         point.restricted(answer.S)
     except ZeroDivisionError:
+        return False
+    return True
+
+
+def printed_verdict(answer: ParametricAnswer, point: ParameterPoint) -> RegionVerdict | None:
+    """What the list says at a point, read from the top; None where S isn't defined, or is said not to be."""
+    if not is_defined(answer, point):
         return None
     for region in answer.regions:
         if region.statement.claim.holds(point):
@@ -72,6 +79,7 @@ def wrongly_printed(answer: Conditions, number: int, seed: int = 3, texts: int |
     for point in points(answer, number, seed):
         verdict = printed_verdict(answer, point)
         if verdict is None:
+            wrong += [f"S is defined at {point}"] * is_defined(answer, point)
             continue
         tried += 1
         for region in answer.regions:
