@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import partial
 from math import exp, inf
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -76,6 +77,20 @@ def check(row: Solvable) -> None:
             )
             (index,) = sympy.solve(levels.zeros - state.zeros, n)
             assert abs(integral / complex(sympy.N(levels.norm.subs({**at, n: index}))) - 1) < 1e-9
+
+
+#: Answers as they are printed, and their first three levels: each norm is the integral, and each wave solves the equation.
+PRINTED = [
+    json.loads(line)
+    for line in (Path(__file__).parents[1] / "data" / "spectra.jsonl").read_text(encoding="utf-8").splitlines()
+]
+
+
+@pytest.mark.parametrize("row", PRINTED, ids=[row["V"] for row in PRINTED])
+def test_the_whole_answer(row: dict[str, Any]) -> None:
+    found = kovacic.spectrum(row["V"], domain=tuple(row["domain"]), **row["options"])
+    assert str(found).splitlines() == row["text"]
+    assert [[str(one.energy), one.zeros, str(one.wave)] for one in found.states(count=3)] == row["states"]
 
 
 @pytest.mark.long

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from build import parametrize
+from clocks import controlled
 
 import kovacic
 
@@ -199,3 +200,89 @@ def test_functions_with_given_values_are_those_of_the_closed_form(
     points = [interval[0] + (interval[1] - interval[0]) * share for share in (0.0, 0.17, 0.5, 0.83, 1.0)]
     for point in points:
         assert f(point) == pytest.approx(exact(point), rel=2e-12, abs=1e-15)
+
+
+# Equations that no other test has, since what was found about polynomials is kept.
+TABLES: list[tuple[str, Any, Any, dict[str, Any], int, tuple[int, ...], list[str]]] = [
+    (
+        "-x - 2/7",
+        -1,
+        "13/2",
+        {"x0": "1/3", "y0": 2, "dy0": "-1/5"},
+        106,
+        (1, 2, 34, 5),
+        ["1.6666261657196", "-1.4582102667657", "1.072359927912", "0.48336015030071"],
+    ),
+    (
+        "x - 2/7",
+        -3,
+        4,
+        {"x0": "1/3", "y0": 2, "dy0": "-1/5", "careful": False},
+        106,
+        (1, 2, 22, 5),
+        ["1.1604453121623", "1.9695132078625", "4.5633457881033", "68.784362685836"],
+    ),
+    (
+        "y'' + sin(2*x)*y' + (3 + x/5)*y = cos(x)",
+        -1,
+        2,
+        {"x0": "1/3", "y0": 2, "dy0": "-1/5"},
+        3200,
+        (1, 2, 34, 7),
+        ["1.3010382897464", "1.8997046050923", "0.48006035527743", "-1.0332775277763"],
+    ),
+    (
+        "-3/(16*x^2) + 5/(7*x - 21)",
+        "1/100",
+        2,
+        {"x0": "1/3", "y0": 2, "dy0": "-1/5"},
+        265,
+        (1, 2, 34, 16),
+        ["1.9189587440889", "1.4147014931689", "0.7081846116457", "-0.094446588702518"],
+    ),
+    (
+        "(x - 3/31)^2*y'' + (x - 3/31)*y' + (x^2 - 4/9)*y = 0",
+        "3/31",
+        5,
+        {"x0": "3/31", "frobenius": (0, 3)},
+        443,
+        (1, 2, 34, 100),
+        ["2.4194352847753", "1.2179788304591", "-0.77989842580973", "-1.2902838361268"],
+    ),
+    (
+        "(x^2 + 37/31)*y'' + 3*x*y' + 5/7*y = 0",
+        -3,
+        4,
+        {"x0": "1/3", "y0": "2 + I", "dy0": "-I/5"},
+        220,
+        (2, 2, 34, 13),
+        [
+            "1.1558365007062+0.79522866166222j",
+            "1.9859962588284+0.96202802984661j",
+            "1.4300084985214+0.58491295429063j",
+            "1.1116075916223+0.43270605085267j",
+        ],
+    ),
+    (
+        "x^2 + 5/11",
+        -2,
+        7,
+        {"x0": "1/3", "y0": 2, "dy0": "-1/5"},
+        149,
+        (1, 2, 34, 12),
+        ["2.0204858856787", "19.966413079372", "57621.827821009", "28479349323.302"],
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("equation", "low", "high", "options", "looks", "shape", "values"), TABLES, ids=[row[0] for row in TABLES]
+)
+def test_the_work_of_tables(
+    equation: str, low: Any, high: Any, options: dict[str, Any], looks: int, shape: tuple[int, ...], values: list[str]
+) -> None:
+    """Looks at the clock, halves, terms and pieces, and values on the way and at the end."""
+    with controlled() as hands:
+        table = kovacic.tabulate(equation, low, high, **options)
+    assert (hands.looks, table.coefficients.shape) == (looks, shape)
+    assert [f"{value:.14g}" for value in table(np.linspace(*table.interval, 5)[1:])] == values

@@ -7,6 +7,7 @@ from fractions import Fraction
 import flint
 import pytest
 import sympy
+from work import check_work
 
 import kovacic
 from kovacic import eigenvalues
@@ -49,12 +50,13 @@ def test_quartic_oscillator_has_its_published_levels():
         ("y'' + lambda*y = 0", "y(0)=0, y(pi)=0", {}, ["1.0", "4.0", "9.0"]),
         ("y'' + lambda*y = 0", "y'(0)=0, y'(pi)=0", {}, ["0.0", "1.0", "4.0"]),
         ("y'' + lambda*y = 0", "y(0)=0, y(1)+y'(1)=0", {}, ["4.11585837", "24.13934203", "63.65910655"]),
-        ("((1-x^2)*y')' + lambda*y = 0", None, {"domain": (-1, 1)}, ["0.0"]),
-        (
+        pytest.param("((1-x^2)*y')' + lambda*y = 0", None, {"domain": (-1, 1)}, ["0.0"], marks=pytest.mark.long),
+        pytest.param(
             "x*y'' + y' + lambda*x*y = 0",
             "y(0)=bounded, y(1)=0",
             {},
             ["5.783185962947", "30.471262343662", "74.887006790695"],
+            marks=pytest.mark.long,
         ),
         ("y'' = lambda*y", "y(0)=0, y(1)=0", {}, ["-9.869604401089358", "-39.478417604357434"]),
         pytest.param(
@@ -197,6 +199,7 @@ def test_spectrum_has_numeric_levels_beside_formulas_or_without():
         kovacic.spectrum("g*x^4", levels=1)
 
 
+@pytest.mark.long
 def test_levels_beside_simple_poles_of_a_sine():
     """-1/sin(x) is even about pi/2, where sin(x) turns, and the level sin(x) (1 - sin(x))^(1/2) changes its sign."""
     found = kovacic.spectrum("-1/sin(x)", domain=(0, "pi"), levels=2, digits=3)
@@ -426,3 +429,83 @@ def test_the_bound_in_a_disc_takes_sixteen_boxes_only_where_one_is_too_large(e, 
     if bound.is_finite():
         largest = max(abs(complex(e.subs(x, centre + radius * cmath.exp(k / 2 * 1j)))) for k in range(13))
         assert largest < bound < 5 * largest
+
+
+# Their constants are in no other test.
+LEVELS = [
+    (
+        "-y'' + x^4*y = E*y",
+        None,
+        {"parameter": "E", "count": 2, "digits": 15},
+        6963,
+        ["1.06036209048418 ± 2.7e-16", "3.79967302980139 ± 9.9e-16"],
+    ),
+    (
+        "y'' + lambda*(1 + x^2/7)*y = 0",
+        "y(0)=0, 2*y(3)+5*y'(3)=0",
+        {"count": 2, "digits": 12},
+        2996,
+        ["0.298985743406106 ± 8.0e-14", "1.88793183107595 ± 5.2e-13"],
+    ),
+    (
+        "((4 - x^2)*y')' + (lambda + 3)*y = 0",
+        None,
+        {"domain": (-2, 2), "count": 1, "digits": 4},
+        66136,
+        ["-3.00000011920929 ± 7.6e-5"],
+    ),
+    (
+        "x*y'' + y' + lambda*x*y = 0",
+        "y(0)=bounded, y(7/5)=0",
+        {"count": 2, "digits": 12},
+        7472,
+        ["2.95060508313611 ± 7.6e-13", "15.5465624202358 ± 4.2e-12"],
+    ),
+    (
+        "-y'' + (6/x^2 - 11/x)*y = E*y",
+        None,
+        {"parameter": "E", "domain": (0, "oo"), "count": 1, "digits": 3},
+        60230,
+        ["-3.36110973358154 ± 0.00085"],
+    ),
+    (
+        "y'' + (lambda - 7*cos(2*x))*y = 0",
+        "y(0)=y(pi), y'(0)=y'(pi)",
+        {"count": 2, "digits": 12},
+        3882,
+        ["-3.54602006194458 ± 9.1e-13", "3.02766431259452 ± 7.9e-13"],
+    ),
+    (
+        "-y'' - 9*exp(-x^2/5)*y = E*y",
+        None,
+        {"parameter": "E", "count": 1, "digits": 4},
+        17509,
+        ["-7.73374581336975 ± 0.00020"],
+    ),
+    (
+        "-y'' + abs(x - 1/3)*y = E*y",
+        "y(-1)=0, y'(2)=0",
+        {"parameter": "E", "count": 2, "digits": 12},
+        2188,
+        ["1.05459903617473 ± 2.9e-13", "3.2540701791813 ± 8.2e-13"],
+    ),
+    (
+        "-y'' + (x^2 - 3*sin(x))*y = E*y",
+        "y(0)=0",
+        {"parameter": "E", "domain": (0, "oo"), "count": 2, "digits": 12},
+        10082,
+        ["0.541365194251552 ± 1.4e-13", "4.85106765603432 ± 1.3e-12"],
+    ),
+    (
+        "-y'' + 3/4/sin(x)^2*y = E*y",
+        None,
+        {"parameter": "E", "domain": (0, "pi"), "count": 1, "digits": 5},
+        23064,
+        ["2.24999999254942 ± 5.7e-6"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("equation", "conditions", "given", "looks", "balls"), LEVELS, ids=[row[0] for row in LEVELS])
+def test_the_work_of_levels(equation, conditions, given, looks, balls):
+    check_work(lambda: [level.value for level in eigenvalues(equation, conditions, **given)], looks, balls)
