@@ -5,8 +5,11 @@ from __future__ import annotations
 import pickle
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
+from typing import Any
 
 import flint
+import mpmath
 import pytest
 import strategies
 import sympy
@@ -33,6 +36,7 @@ from kovacic import Structure
 from kovacic.closed_form.curve import completed, integrate_on_curve, unit
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.integrals import curve_integral, logarithms
+from kovacic.closed_form.jets import parameter_value
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
     integrate_exponential,
@@ -60,6 +64,49 @@ def closed_form_of(answer: kovacic.Solution) -> ClosedForm:
     form = answer.closed_form
     assert form is not None
     return form
+
+
+#: Functions of u, a polynomial in x; the letters have the values that they take in all checks.
+JETS = """
+Ei(u) Si(u) Ci(u) fresnels(u) fresnelc(u) airyai(u) airybi(u) airyaiprime(u) airybiprime(u) uppergamma(a,u) lowergamma(a,u)
+besselj(a,u) bessely(a,u) besseli(a,u) besselk(a,u) expint(9/4,u) hermite(9/7,u) polylog(5/3,u/4)
+elliptic_k(u/4) elliptic_e(u/4) jn(a,u) yn(a,u) laguerre(n,u) assoc_laguerre(n,a,u) legendre(n,u/4) gegenbauer(n,a,u/4)
+assoc_legendre(n,3,u/4) jacobi(n,a,b,u/4)
+gamma(u) erf(u) erfc(u) erfi(u) zeta(u) exp(u) sin(u) cos(u) tan(u) cot(u) sec(u) csc(u) sinh(u) cosh(u) tanh(u) coth(u) sech(u)
+csch(u) asin(u) acos(u) atan(u) asinh(u) acosh(u) atanh(u) acot(u) log(u) sqrt(u) u**(3/7) u**a u**(-2) sqrt(1/u)
+hyper((),(3/7,),u) hyper((2/5,),(3/7,),u) hyper((2/5,5/3),(),u/4) hyper((2/5,5/3,1/9),(3/7,5/4),u/4)
+hyper((2/5,5/3),(3/7,),u/4) hyper((2/5,17/5),(3/7,),3*u) hyper((2/5,5/3),(7/5,),3*u) hyper((5/3,2/5),(7/5,),3*u)
+hyper((2/5,3/4),(43/20,),u/9+1) hyper((a,2*a),(b,),u/4) u*pi+E*EulerGamma+Catalan+I+3/8+Abs(-5/3)+erf(2/3)
+""".split()
+
+
+def _of_acb(value: acb) -> Any:
+    return mpmath.mpc(*(mpmath.mpf(part.mid().str(40, radius=False)) for part in (value.real, value.imag)))
+
+
+@pytest.mark.parametrize("text", JETS)
+def test_jets_have_the_values_of_another_library_and_their_differences(text: str) -> None:
+    """f by mpmath; f' and f'' by differences of f and f' at neighbours, with 300 bits."""
+    names = {name: sympy.Symbol(name) for name in "nab"}
+    u = 2 * x**2 / 3 + x - sympy.Rational(1, 5)
+    expression = sympy.sympify(text, {**names, "u": sympy.Symbol("u")}, rational=True).subs(sympy.Symbol("u"), u)
+    primes = {f"airy{k}prime": partial(getattr(mpmath, f"airy{k}"), derivative=1) for k in ("ai", "bi")}
+    spherical = {
+        name: lambda n, z, of=of: mpmath.sqrt(mpmath.pi / (2 * z)) * of(n + mpmath.mpf(0.5), z)
+        for name, of in (("jn", mpmath.besselj), ("yn", mpmath.bessely))
+    }
+    incomplete = {"uppergamma": mpmath.gammainc, "lowergamma": lambda s, z: mpmath.gammainc(s, 0, z)}
+    of_laguerre = {"laguerre": lambda n, z: mpmath.laguerre(n, 0, z), "assoc_laguerre": mpmath.laguerre}
+    with flint.ctx.workprec(300), mpmath.workdps(30):
+        point, step = acb("0.53", "0.29"), acb(2) ** -60
+        value, slope, second = jet(expression, x, point)
+        left, right = (jet(expression, x, point + shift) for shift in (-step, step))
+        assert abs((right[0] - left[0]) / (2 * step) - slope) < 1e-28 * abs(slope)
+        assert abs((right[1] - left[1]) / (2 * step) - second) < 1e-28 * (abs(second) + abs(slope))
+        numbers = {symbol: _of_acb(parameter_value(name)) for name, symbol in names.items()}
+        modules = [{**primes, **spherical, **incomplete, **of_laguerre}, "mpmath"]
+        other = sympy.lambdify((x, *numbers), expression, modules)(_of_acb(point), *numbers.values())
+        assert abs(other - _of_acb(value)) < 1e-24 * abs(other)
 
 
 @pytest.mark.long
