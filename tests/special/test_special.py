@@ -6,10 +6,12 @@ import json
 import re
 from fractions import Fraction
 from functools import partial
+from itertools import permutations
 from pathlib import Path
 from random import Random
 from typing import Any
 
+import flint
 import mpmath
 import pytest
 import sympy
@@ -674,6 +676,74 @@ def test_laguerres_polynomials_are_polynomials_at_zero_too(degree: int, a: int) 
         first, second = (mpmath.taylor(function(y, {}), POINT, 1) for y in pair)
         stated = function(pair.wronskian, {})(POINT)
         assert abs(first[0] * second[1] - first[1] * second[0] - stated) < 1e-20 * abs(stated)
+
+
+def of(*constants: Fraction | int) -> list[Any]:
+    return [QQ.poly([c]) if c else QQ.poly([]) for c in constants]
+
+
+HALVES = Fraction(1, 4), Fraction(1, 9)
+#: Standard equations, in all coordinates, and whether both solutions have the leading term 1 at 0, one or neither.
+VALUES: list[tuple[Any, int, int]] = [
+    *((Airy(*of(q)), 1, 0) for q in (3, Fraction(-2, 5))),
+    *((Bessel(*of(0, r, M)), 2, 2) for r, M in ((3, Fraction(-2, 9)), (-5, Fraction(1, 7)))),
+    *((Bessel(*of(0, r, M)), 2, 1) for r, M in ((3, 2), (-5, Fraction(3, 4)))),
+    *((Whittaker(*of(q, 0, M)), 2, 2) for q, M in ((3, Fraction(-2, 9)), (-2, Fraction(1, 7)))),
+    *((Whittaker(*of(q, 0, M)), 2, 1) for q, M in ((3, Fraction(3, 4)), (-2, Fraction(15, 4)))),
+    *((Whittaker(*of(q, r, M)), 2, 2) for q, r, M in ((3, 2, Fraction(-2, 9)), (Fraction(1, 4), -5, Fraction(1, 7)))),
+    *((Whittaker(*of(q, r, M)), 2, 1) for q, r, M in ((3, 2, Fraction(3, 4)), (Fraction(1, 4), Fraction(1, 3), 2))),
+    (Gauss(*of(Fraction(1, 9), Fraction(4, 25), Fraction(9, 49))), 6, 2),
+    (Gauss(*of(Fraction(1, 3), Fraction(4, 25), Fraction(2, 49))), 6, 2),
+    (Gauss(*of(4, Fraction(4, 25), Fraction(9, 49))), 6, -1),
+    (Gauss(*of(4, 9, Fraction(9, 49))), 6, -1),
+    *((Gauss(*of(*squares)), 6, -1) for squares in permutations((*HALVES, Fraction(1, 4)))),
+    (Gauss(*of(0, Fraction(1, 4), Fraction(1, 4))), 6, -1),
+]
+
+
+@pytest.mark.parametrize(("equation", "coordinates", "leading"), VALUES, ids=str)
+def test_values_of_both_solutions_satisfy_the_equation(equation: Any, coordinates: int, leading: int) -> None:
+    """f'^(-1/2) z^alpha (1 - z)^beta E for z = n/d, with E' by differences; and E = 1 at z = 0."""
+    f = (3 * X + 1) / (X + 7)
+    S = Pullback(equation, f).S
+    with flint.ctx.workprec(180):
+        x0, h = flint.acb("0.31", "0.47"), flint.acb(2) ** -45
+        num, den = (flint.acb_poly(p.rep)(x0) for p in (S.num, S.den))
+        for coordinate in range(coordinates):
+            form = equation.form(f.num.rep, f.den.rep, coordinate)
+            n, d = (flint.acb_poly(p) for p in (form.n, form.d))
+            rows = []
+            for x1 in (x0 - h, x0, x0 + h):
+                z, slope = n(x1) / d(x1), (n.derivative() * d - d.derivative() * n)(x1) / d(x1) ** 2
+                values = form.values(z, (True, True))
+                powers = [z ** flint.acb(e) * (1 - z) ** flint.acb(e1) / slope.sqrt() for e, e1 in form.powers]
+                rows.append([(power * E, E, dE * slope) for power, (E, dE) in zip(powers, values, strict=True)])
+            pairs = []
+            for (y0, E0, _), (y1, _, dE), (y2, E2, _) in zip(*rows, strict=True):
+                assert abs((y2 - 2 * y1 + y0) / (h * h) * den - num * y1) < 1e-22 * abs(num * y1)
+                assert abs((E2 - E0) / (2 * h) - dE) < 1e-22 * (1 + abs(dE))
+                pairs.append((y1, (y2 - y0) / (2 * h)))
+            (u, du), (v, dv) = pairs
+            assert abs(u * dv - v * du) > 1e-8 * (abs(u * dv) + abs(v * du))
+            assert form.independent
+            if leading >= 0:
+                ones = [abs(E - 1) < 1e-20 for E, _ in form.values(flint.acb(2) ** -200, (True, True))]
+                assert ones == [leading > 0, leading > 1]
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        Whittaker(*of(Fraction(1, 4), Fraction(7, 2), Fraction(3, 4))),
+        Gauss(*of(4, 9, 64)),
+        Gauss(*of(4, 9, 144)),
+    ],
+    ids=str,
+)
+def test_both_solutions_may_be_the_same_polynomial(equation: Any) -> None:
+    """1/2 + mu - kappa = -2; (1 + 2 + 3 - 8)/2 = -1, and (1 + 2 + 3 - 12)/2 = -3."""
+    z = X.num.rep
+    assert not equation.form(z, z * 0 + 1, 0).independent
 
 
 def transformed(S: str, *transform: str) -> tuple[str, tuple[Any, Any, Any]]:
