@@ -3,9 +3,10 @@
 With a rational W, W' + W^2 = V - E0, the operator d/dx - W takes solutions for V to solutions for V - 2 W' with the same E, and
 d/dx + W takes them back, up to the factor E0 - E.  Where W has no residue 1 inside the domain y0 = exp(int W) has no zero, so
 that E0 isn't above the lowest level; it is this level exactly where y0 is square integrable.  (With such a residue V - 2 W' has
-a pole there, which is refused.)  At a regular end both operators take the smaller solution to the smaller one where nu >= 1 for
-V and for V - 2 W'; at an irregular end they keep the decaying one.  So the levels for V are those for V - 2 W', and E0 where y0
-is square integrable; and
+a pole there, which is refused.)  At a regular end W has the residue 1/2 + nu or 1/2 - nu, and V - 2 W' has nu + 1 or |nu - 1|
+for nu.  Both operators take the smaller solution to the smaller one if nu >= 1, and for the residue 1/2 + nu, where y0 is the
+smaller one; at an irregular end they keep the decaying one.  So the levels for V are those for V - 2 W', both with Friedrichs'
+condition, and E0 where y0 is square integrable and obeys it; and
 
     int ((d/dx + W) y)^2 dx = (E - E0) int y^2 dx.
 
@@ -30,7 +31,7 @@ from kovacic.bound_states.signs import Uncovered
 from kovacic.engine.places import analyse
 from kovacic.errors import InputError
 from kovacic.limits import Budget
-from kovacic.parametric.partition import transformation
+from kovacic.parametric.partition import Transformation, transformations
 from kovacic.parametric.solutions import derivative
 from kovacic.reading.read import read_input
 
@@ -39,17 +40,30 @@ def transformed(
     question: Examined, budget: Budget, all_levels: Callable[[Examined, Budget], Spectrum]
 ) -> Spectrum | None:
     """The levels of a V in x with apparent singularities, from `all_levels` of a potential with fewer of them, or None."""
-    if question.parsed.equation is not None or not question.is_limit_point:
+    if question.parsed.equation is not None or not all(
+        wish is None or wish.is_zero for wish in question.boundary.wishes
+    ):
         return None
-    found = transformation(analyse(question.parsed.S, budget))
+    found = transformations(analyse(question.parsed.S, budget))
+    spectra = (_by_transformation(question, one, budget, all_levels) for one in found)
+    return next(filter(None, spectra), None)
+
+
+def _by_transformation(
+    question: Examined, found: Transformation, budget: Budget, all_levels: Callable[[Examined, Budget], Spectrum]
+) -> Spectrum | None:
+    """The levels from those of the simpler potential, or None where it isn't known that all of them are."""
     signs = question.signs
     x, E = sympy.symbols([question.variable, question.energy])
-    if found is None or None in [signs.sign(signs.real(f.to_sympy(x))) for f in found.exceptions]:
+    if None in [signs.sign(signs.real(f.to_sympy(x))) for f in found.exceptions]:
         return None
     W, S, simpler = (f.to_sympy(x) for f in (found.W, question.parsed.S, found.simpler))
     E0 = question.plain(sympy.cancel(sympy.together((S.subs(E, 0) - W**2 - sympy.diff(W, x)) * question.kinetic)))
     wave = sympy.exp(sympy.integrate(sympy.apart(W, x), x))
     holds = [*map(signs.holds, demands_of(signs.real(wave), question))]
+    is_meant = [end.is_limit_point or here for end, here in zip(question.ends, holds, strict=True)]
+    if None in holds or not all(is_meant):
+        return None
     parsed = read_input(simpler, var=question.variable, exponentials=True)
     try:
         other = examined(replace(question, S=simpler, parsed=parsed))
@@ -58,7 +72,7 @@ def transformed(
         return None
     # E0 may be a level of the simpler potential, and isn't one of V then.
     gaps = (signs.real(one.energy - E0).xreplace({one.number: signs.n}) for one in spectrum.levels)
-    if None in (*holds, *map(signs.sign, gaps)) or not (spectrum.complete and other.is_limit_point):
+    if None in map(signs.sign, gaps) or not spectrum.complete or other.excluded:
         return None
     # The levels of the simpler potential with y' + W y for y, whose norm^2 is (E - E0)/k times that of y; and E0 with y0.
     W, lowest = question.plain(sympy.factor(W)), question.plain(wave)

@@ -99,8 +99,8 @@ def carried_back(W: RatFunc, variable: str, solution: PolynomialSolution) -> Pol
     return replace(solution, y=derivative(solution.y, x) + sympy.factor(W.to_sympy(x)) * solution.y)
 
 
-def transformation(problem: Problem) -> Transformation | None:
-    """A transformation that lowers the apparent singularities; None if none is found."""
+def transformations(problem: Problem) -> Iterator[Transformation]:
+    """Transformations that lower the apparent singularities."""
     before = _apparent(problem)
     for special, W in _rational_logarithmic_derivatives(problem) if before else ():
         simpler = problem.S - 2 * W.derivative()
@@ -108,8 +108,7 @@ def transformation(problem: Problem) -> Transformation | None:
         if _apparent(after) < before:
             own, others = map(restriction.undefined, (problem, after))
             exceptions = union([own, irreducible_factors(W.cleared()[1].lc), others])
-            return Transformation(special, W, simpler, tuple(exceptions))
-    return None
+            yield Transformation(special, W, simpler, tuple(exceptions))
 
 
 def _apparent(problem: Problem) -> int:
@@ -240,7 +239,7 @@ def _by_theory(S: RatFunc, expected: RegionVerdict, settings: Settings) -> Parti
         return _by_theorem(problem, theorem, expected, settings)
     if settings.only_theorems:
         return Partition(expected, "for generic values only", Theory("no theorem covers all values"))
-    simpler = transformation(problem)
+    simpler = next(transformations(problem), None)
     if simpler is not None:
         return _by_transformation(problem, simpler, settings)
     return _by_candidates(problem, expected, settings)

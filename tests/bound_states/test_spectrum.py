@@ -918,6 +918,20 @@ def test_states_are_numbered_by_their_zeros() -> None:
         assert size(residual.subs(x, sympy.Rational(7, 10)), 30) < 1e-15
 
 
+@parametrize("order", ["1/4", "0", "-1/4", "1/2", "1", "2"], ordinary=1, long=2)
+def test_exceptional_levels_where_both_solutions_are_square_integrable(order: str) -> None:
+    """X_1 of Laguerre: 4 n + 2 l + 3 with the smaller solution at 0, whether y0 or 1/y0 is the smaller one there."""
+    s, half = sympy.Rational(order), sympy.Rational(1, 2)
+    x = sympy.Symbol("x")
+    found = kovacic.spectrum(
+        x**2 + s * (s + 1) / x**2 + 4 * (x**2 - s - half) / (x**2 + s + half) ** 2, domain=(0, "oo")
+    )
+    assert found.complete
+    states = found.states({}, count=3)
+    assert [state.energy for state in states] == [4 * n + 2 * s + 3 for n in range(3)]
+    assert all(sympy.limit(state.wave / x**s, x, 0, "+") == 0 for state in states)
+
+
 @parametrize(
     ("V", "domain", "energies"),
     [
