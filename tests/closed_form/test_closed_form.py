@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
+from pathlib import Path
+from typing import Any
 
 import flint
 import mpmath
@@ -117,6 +120,33 @@ def check_at(answer: kovacic.Solution, point: acb) -> None:
             assert residual(y, form.variable, answer.S, answer.gauge, point) < arb(10) ** -45
         (y1, d1, _), (y2, d2, _) = (jet(y, form.variable, point) for y in answer.solutions)
         assert abs(y1 * d2 - y2 * d1) > arb(10) ** -50 * (abs(y1 * d2) + abs(y2 * d1))
+
+
+FORMS = [
+    json.loads(line)
+    for line in (Path(__file__).parents[1] / "data" / "closed_forms.jsonl").read_text(encoding="utf-8").splitlines()
+]
+
+
+@pytest.mark.parametrize("row", FORMS, ids=lambda row: row["equation"][:60])
+def test_closed_forms_are_written_as_in_the_table(row: dict[str, Any]) -> None:
+    """Both solutions, notes, what mustn't vanish and where they are real; the next test shows that they are right."""
+    form = kovacic.solve(row["equation"], var="x").closed_form
+    assert form is not None
+    assert [str(form.y1), str(form.y2)] == row["pair"]
+    assert [*form.notes] == row.get("notes", [])
+    assert [str(u) for u in form.undefined] == row.get("undefined", [])
+    assert (str(form.place), form.checked) == (row.get("place", "None"), row.get("checked", "exact"))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(4))
+def test_closed_forms_of_the_table_are_solutions(part: int) -> None:
+    for row in FORMS[part::4]:
+        answer = kovacic.solve(row["equation"], var="x")
+        assert answer.closed_form is not None
+        if answer.closed_form.variable == x:  # else it is a function of x
+            check_at(answer, acb("0.31", "0.83").mid())
 
 
 CASES = [

@@ -168,7 +168,7 @@ def test_the_right_hand_side_says_on_which_side_an_answer_is_meant() -> None:
         assert all(relation.subs(x, sympy.Rational(-7, 10)) == sympy.true for relation in answer.validity.real)
 
 
-@parametrize(("m", "letters"), [("2", "n"), ("m", "nm"), ("1", "n")], ordinary=(0,))
+@parametrize(("m", "letters"), [("2", "n"), ("m", "nm"), ("1", "n")], ordinary=0, long=(0,))
 def test_a_turned_pair_keeps_its_wronskian(m: str, letters: str) -> None:
     """(1 - x^2)^(m/2) beside P_n^m, which is real between -1 and 1; and its W has no special functions of x."""
     equation = f"(1-x^2)*y'' - 2*x*y' + (n*(n+1) - {m}^2/(1-x^2))*y = 0"

@@ -792,10 +792,11 @@ def test_gauge_transforms_know_where_their_solutions_are_dependent(
     assert ("!= 0" in said) == bool(exceptions)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("S", "transform", "longest"),
     [
-        pytest.param("(n^2 - 1/4)/x^2 - 1", ("1", "x"), 60, marks=pytest.mark.long),
+        ("(n^2 - 1/4)/x^2 - 1", ("1", "x"), 60),
         ("(-8/9*x^2 + 8/9*x - 1)/(4*x^2*(x-1)^2)", ("1", "x*(x-1)"), 80),  # Legendre's
         ("-(x^2 - x + 1)/(4*x^2*(x-1)^2)", ("1", "x*(x-1)"), 70),  # K
     ],
