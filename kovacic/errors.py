@@ -26,6 +26,10 @@ def visible(text: str) -> str:
     )
 
 
+# Characters of an offending part that a message shows.
+_LONGEST_PART = 200
+
+
 class KovacicError(Exception):
     """Base class of every exception that this package raises on purpose."""
 
@@ -77,6 +81,8 @@ class InputError(KovacicError, ValueError):
                 visible(piece.replace("\n", " "))
                 for piece in (self.text[max(0, start - 30) : start], self.text[start:end], self.text[end : end + 30])
             )
+            if len(part) > _LONGEST_PART:
+                part = f"{part[: _LONGEST_PART // 2]}...{part[-_LONGEST_PART // 4 :]}"
             marker = " " * len(before) + "^" * max(1, min(len(part), 40))
             parts.append(f"  at position {start}:\n    {before}{part}{after}\n    {marker}")
         if hint:

@@ -240,7 +240,7 @@ class _Rows:
             return None
         line = taken[0]
         if columns and any(cells) and len(cells) != columns:
-            error = ParseError(f"{len(cells)} cells in a table of {columns} columns")
+            error = ParseError(f"a row of length {len(cells)} in a table of {columns} columns")
         # An even number of quotation marks leaves none open.
         if error is not None and line.text.count('"') % 2:
             error = ParseError("a quotation mark isn't closed", hint='write "" for a quotation mark within quoted text')

@@ -204,6 +204,7 @@ class _Translation:
         self.closers: dict[int, list[str]] = {}
         self.skipped: set[int] = set()
         self.partner = {k: last for k, last in scan.partners.items() if self.texts[k] != "|"}
+        self.closing_bars = {last for k, last in scan.partners.items() if self.texts[k] == "|"}
 
     def tokens(self) -> ParserTokens:
         while self.k < len(self.scan):
@@ -543,7 +544,7 @@ class _Translation:
     def bar(self, token: Token) -> bool:
         if self.k in self.scan.partners:
             self.head("abs", token)
-        elif self.k in self.scan.partners.values():
+        elif self.k in self.closing_bars:
             self.write(")", token)
         else:
             return False

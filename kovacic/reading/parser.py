@@ -31,7 +31,7 @@ _ATOMS = ("NUMBER", "NAME", "PRIMED", "OPERATOR")
 _OPERANDS = frozenset({*_ATOMS, "HEAD", "LPAR"})
 _BINARY_KINDS = (*_BINARY, "CIRCUMFLEX")
 _NO_OPERANDS = (*_BINARY_KINDS, "RPAR", "COMMA", "EQUAL")
-#: The deepest nesting of calls, fractions and derivatives: SymPy and the look ahead at fractions are recursive.
+#: The deepest nesting of calls, exponents, fractions and derivatives: SymPy and the look ahead at fractions are recursive.
 DEEPEST = 100
 
 
@@ -138,6 +138,8 @@ class _Parser:
         self.groups = [_Group(-1)]
         #: The number of calls and pairs that are open.
         self.argument_lists = 0
+        #: The number of exponents within each other that are being read.
+        self.exponents = 0
 
     def read(self) -> Any:
         operand_is_next = True
@@ -193,6 +195,9 @@ class _Parser:
             self.complete(k)  # so that an earlier error is reported first
             raise self.syntax_error(k)
         self.pending.append((_POWER, k))
+        self.exponents += 1
+        if self.exponents > DEEPEST:
+            raise LimitExceeded(f"over {DEEPEST} nested exponents, the limit", limit="text_length")
         if self.kinds[k] == "CIRCUMFLEX":
             return True
         self.site.span = self.operands[-1].begin, k, k + 1
@@ -328,6 +333,7 @@ class _Parser:
         left = self.operands[-1]
         self.site.span = left.begin, right.begin, end
         if level == _POWER:
+            self.exponents -= 1
             left.value = self.reader.power(left.value, right.value, self.site)
         elif level == _IMPLICIT:
             _check_neighbours(self.tokens, self.reader, left.begin, right.begin)

@@ -86,7 +86,7 @@ def test_csv_with_and_without_header() -> None:
     assert found[2].error is not None
     assert found[2].number == 5
     (_, wrong) = read(b"id,S\n 1 , x^2 \n 2 , x , y \n", "csv")
-    assert (wrong.text, str(wrong.error)) == ("2,x,y", "3 cells in a table of 2 columns")
+    assert (wrong.text, str(wrong.error)) == ("2,x,y", "a row of length 3 in a table of 2 columns")
     assert [item.text for item in read(b"x,1\nx^2+3,2\n", "csv")] == ["x", "x^2+3"]
 
 

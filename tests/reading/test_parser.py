@@ -449,6 +449,7 @@ def test_user_text_is_never_executed() -> None:
         ("1e100001", "digits"),
         ("1e-9999999999999", "digits"),
         ("x^" + "9" * 500, "exponent"),
+        ("x^-" * 101 + "x", "text_length"),
         (" " * 1_000_001, "text_length"),
     ],
     ids=lambda value: value[:20],
@@ -457,6 +458,12 @@ def test_limits_hold_before_the_work_is_done(text: str, limit: str) -> None:
     with pytest.raises(LimitExceeded) as caught:  # the work itself takes minutes, or has no end
         read_input(text)
     assert caught.value.limit == limit
+
+
+def test_messages_show_part_of_a_long_text() -> None:
+    with pytest.raises(kovacic.InputError, match="of order 100000") as refused:
+        read_input("y" + "'" * 100_000 + " = y")
+    assert len(str(refused.value)) < 500
 
 
 def test_limits_are_adjustable() -> None:
