@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
+import warnings
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
@@ -35,6 +37,55 @@ def residual(left: sympy.Expr, solution: sympy.Eq, point: str = "0.37") -> float
     value = solution.rhs.subs({C1: 2, C2: -3})
     expression = left.subs(y(x), value).doit()
     return abs(complex(sympy.N(expression.subs(x, Rational(point)), 30)))
+
+
+ANSWERS = [
+    json.loads(line)
+    for line in (Path(__file__).parents[1] / "data" / "dsolve.jsonl").read_text(encoding="utf-8").splitlines()
+]
+
+
+@pytest.mark.parametrize("row", ANSWERS, ids=lambda row: row["text"])
+def test_answers_are_written_as_in_the_table(row: dict[str, str]) -> None:
+    """The answer, what is said beside it, and where it holds; the next test shows that the answers are right."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = dsolve(row["text"])
+    assert str(found) == row["answer"]
+    assert "; ".join(str(warning.message) for warning in said) == row.get("said", "")
+    assert str(kovacic.validity(found)) == row["valid"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(4))
+def test_answers_of_the_table_are_solutions(part: int) -> None:
+    """Put into the text, by SymPy's numbers."""
+    for row in ANSWERS[part::4]:
+        if "Piecewise" in row["text"]:
+            continue
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = dsolve(row["text"])
+        solutions = found if isinstance(found, list) else [found]
+        t = solutions[0].lhs.args[0]
+        equations = [
+            text for text in re.split(r", (?=\w)", row["text"]) if not re.search(r"\w'*\([^()]*\) *[-+=]", text)
+        ]
+        for text in equations:
+            left, _, right = text.replace("^", "**").partition("=")
+            code = f"({left}) - ({right or 0})"
+            names: dict[str, Any] = {}
+            for solution in solutions:
+                name = solution.lhs.func.__name__
+                for k in (2, 1, 0):
+                    code = re.sub(rf"\b{name}{chr(39) * k}(?![\w'])", f" _{name}{k} ", code)
+                    names[f"_{name}{k}"] = solution.rhs.diff(t, k)
+            letters = {sympy.Symbol(f"C{k}"): k + 1 for k in (1, 2)}
+            expression = sympy.sympify(code, names, rational=True)
+            free = sorted(expression.free_symbols - {t, *letters}, key=str)
+            letters |= {letter: Rational(k + 3, 2) for k, letter in enumerate(free)}
+            value = sympy.N(expression.subs(letters).doit().subs(t, Rational(7, 10)), 25)
+            assert abs(value) < 1e-15, (text, value)
 
 
 EQUATIONS = [
