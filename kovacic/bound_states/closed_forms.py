@@ -33,6 +33,7 @@ from kovacic.bound_states.energies import tidied
 from kovacic.bound_states.levels import NO_FORMULA_FOR_ALL, Algebraic
 from kovacic.bound_states.question import SpectralProblem
 from kovacic.bound_states.signs import Signs, Uncovered, exceeds
+from kovacic.closed_form.order import point_between
 from kovacic.engine.places import analyse
 from kovacic.errors import LimitExceeded
 from kovacic.general_solution.antiderivatives import antiderivative
@@ -43,7 +44,6 @@ from kovacic.parametric.parametric_answer import ParametricAnswer
 from kovacic.parametric.regions import ParameterRegion
 from kovacic.parametric.solutions import PolynomialSolution, jacobi, translated_solution, weight_by_signs
 from kovacic.parametric.statements import Statement, Vanishes
-from kovacic.sturm_liouville.problem import point_between
 
 #: Functions in an antiderivative whose limits at the ends are found at once.
 _WITH_LIMITS = (sympy.exp, sympy.log, sympy.atan, sympy.erf)

@@ -16,6 +16,7 @@ from kovacic.algebra.precision import working_precision
 from kovacic.bound_states.levels import BoundState, Levels, Spectrum
 from kovacic.bound_states.question import number_beside
 from kovacic.bound_states.signs import Signs
+from kovacic.closed_form.order import ball, point_between
 from kovacic.closed_form.steps import JUMPING
 from kovacic.errors import InputError, LimitExceeded, VerificationFailed
 from kovacic.general_solution.zero import residual_at
@@ -24,7 +25,7 @@ from kovacic.numbers.exact import whole
 from kovacic.sturm_liouville.ends import is_regular
 from kovacic.sturm_liouville.families import decay, family, matching_equations
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import Robin, SturmProblem, Wish, ball, point_between, stretches_of
+from kovacic.sturm_liouville.problem import Robin, SturmProblem, Wish, stretches_of
 from kovacic.sturm_liouville.solve import Eigenproblem
 
 _IMPLICIT = "implicit: the levels are roots of this equation; a root at which a wave number vanishes may be none"

@@ -14,18 +14,18 @@ Functions that jump, or whose slopes do, are sums of steps:
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import reduce
-from itertools import pairwise
 from math import comb
 from typing import Any, NamedTuple
 
 import sympy
-from sympy import Add, DiracDelta, Heaviside, Integer, Mul, Piecewise, Rational, exp, expand
+from sympy import Add, DiracDelta, Heaviside, Integer, Mul, Piecewise, exp, expand
 from sympy.logic.boolalg import And, Or
 
 from kovacic.closed_form.check import letter_samples
+from kovacic.closed_form.order import between, from_left_to_right
 from kovacic.errors import InputError
 
 Expr = Any  # SymPy publishes no types
@@ -295,16 +295,7 @@ def jumps_in(expression: Expr, x: Expr) -> set[Expr]:
 def break_points(expression: Expr, x: Expr) -> list[Expr]:
     """The known points where functions in an expression jump, from left to right."""
     places = jump_points(sympy.Tuple(*jumps_in(expression, x)), x)
-    return sorted((a for a in places if a.is_number and a.is_real), key=lambda a: float(a.evalf()))
-
-
-def between(breaks: Sequence[Expr]) -> list[Expr]:
-    """A rational point between each two breaks, and one beyond them on each side."""
-    if not breaks:
-        return [Rational(41, 89)]
-    values = [Rational(str(point.evalf(12))) for point in breaks]
-    inner = [(3 * left + 2 * right) / 5 for left, right in pairwise(values)]
-    return [values[0] - Rational(41, 89), *inner, values[-1] + Rational(23, 71)]
+    return from_left_to_right(a for a in places if a.is_number and a.is_real)
 
 
 def on_piece(expression: Expr, x: Expr, point: Expr) -> Expr:

@@ -14,6 +14,7 @@ import sympy
 from sympy import Symbol, Tuple, oo, simplify
 
 from kovacic.closed_form.atoms import is_seen_negative
+from kovacic.closed_form.order import ball
 from kovacic.enclosure.request import Accuracy, digits_and_limits
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.general_solution.conditions import Condition, apart, periodicity, read_conditions, symbols_of
@@ -25,7 +26,7 @@ from kovacic.reading.source import parts_of, source_of
 from kovacic.reading.symbolic import read_expression
 from kovacic.sturm_liouville.families import EigenvalueFamily, family
 from kovacic.sturm_liouville.levels import Eigenvalues
-from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, ball, normal_form
+from kovacic.sturm_liouville.problem import Bounded, Robin, SturmProblem, Wish, normal_form
 from kovacic.sturm_liouville.solve import Eigenproblem
 from kovacic.writing.formula import free_name
 

@@ -32,7 +32,8 @@ from kovacic.algebra.precision import working_digits, working_precision
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import cut_of, cuts_of
 from kovacic.closed_form.jets import ANTIDERIVATIVES, MATHIEU, jet
-from kovacic.closed_form.steps import JUMPING, between, break_points, in_steps, on_piece, split_at_jumps
+from kovacic.closed_form.order import between
+from kovacic.closed_form.steps import JUMPING, break_points, in_steps, on_piece, split_at_jumps
 from kovacic.errors import VerificationFailed
 from kovacic.general_solution.behaviour import Approach, have_values, is_refuted
 from kovacic.general_solution.conditions import Condition, symbols_of

@@ -21,9 +21,10 @@ from flint import acb, acb_series, arb, ctx
 
 from kovacic.algebra.precision import series_length, working_precision
 from kovacic.closed_form.jets import BallEvaluator
+from kovacic.closed_form.order import ball
 from kovacic.errors import InputError
 from kovacic.limits import check_time, count_work
-from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, ball, kept
+from kovacic.sturm_liouville.problem import Span, Stretch, SturmProblem, kept
 
 Expr = Any
 #: k R is at most this, so that the bound M of a solution is at most exp(24) times its size, and 8^-n outweighs it soon.

@@ -35,10 +35,11 @@ from sympy.simplify.fu import TR1, TR2
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
+from kovacic.closed_form.order import ball, dyadic_midpoint
 from kovacic.errors import InputError, LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.discs import germ, size_bound, taylor_coefficients
-from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, ball, dyadic_midpoint, kept, plain
+from kovacic.sturm_liouville.problem import Robin, Span, Stretch, SturmProblem, Wish, kept, plain
 
 _INFINITY = arb.pos_inf()
 #: Intervals whose ends may be infinite.

@@ -31,11 +31,12 @@ from flint import acb, arb
 
 from kovacic.algebra.precision import working_precision
 from kovacic.closed_form.jets import BallEvaluator
+from kovacic.closed_form.order import ball
 from kovacic.enclosure.ball import Ball, ball_to_flint
 from kovacic.errors import InputError
 from kovacic.sturm_liouville.discs import Road, march
 from kovacic.sturm_liouville.ends import CutEnd, End, end_of
-from kovacic.sturm_liouville.problem import Span, SturmProblem, ball
+from kovacic.sturm_liouville.problem import Span, SturmProblem
 
 
 @dataclass(frozen=True)

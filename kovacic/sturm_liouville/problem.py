@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cmp_to_key, wraps
+from functools import wraps
 from typing import Any, TypeVar
 
 import sympy
-from flint import acb, arb, fmpq
+from flint import acb, arb
 
-from kovacic.algebra.rationals import to_fraction
 from kovacic.closed_form.jets import BallEvaluator
+from kovacic.closed_form.order import ball, from_left_to_right, is_below, point_between
 from kovacic.closed_form.steps import JUMPING, in_steps, jump_place, jumps_in, on_piece, split_at_jumps
 from kovacic.errors import InputError
 
@@ -111,14 +111,6 @@ def kept(method: Callable[..., _T]) -> Callable[..., _T]:
     return found
 
 
-def ball(e: Expr) -> Any:
-    """The value of a constant, a real ball.  Raises `InputError` unless it is known to be real."""
-    found = BallEvaluator({})(e)
-    if not found.imag.is_zero():
-        raise InputError(f"{e} isn't known to be real")
-    return found.real
-
-
 def stretches_of(Q: Expr, W: Expr, x: Expr, domain: tuple[Expr, Expr]) -> tuple[Stretch, ...]:
     """Q and W between the points at which one of their absolute values, steps or cases changes.
 
@@ -157,8 +149,8 @@ def _breaks(e: Expr, x: Expr, domain: tuple[Expr, Expr]) -> list[Expr]:
         if place is None or place.a.is_real is False:
             raise InputError(f"it isn't known where {step.args[0]} changes its sign")
         points.add(place.a)
-    inside = [point for point in points if _is_below(domain[0], point) and _is_below(point, domain[1])]
-    return sorted(inside, key=cmp_to_key(lambda a, b: -1 if _is_below(a, b) else 1))
+    inside = [point for point in points if is_below(domain[0], point) and is_below(point, domain[1])]
+    return from_left_to_right(inside)
 
 
 def _near(e: Expr, x: Expr, inside: Expr) -> Expr:
@@ -167,38 +159,6 @@ def _near(e: Expr, x: Expr, inside: Expr) -> Expr:
     if any(step.has(x) or not e.has(step) for step in found.atoms(*JUMPING)):
         raise InputError(f"it isn't known what {e} is at {x} = {inside}")
     return found
-
-
-def _is_below(a: Expr, b: Expr) -> bool:
-    if a.is_infinite or b.is_infinite:
-        return bool(a != b and (a == -sympy.oo or b == sympy.oo))
-    e = b - a
-    if not e.free_symbols:
-        return bool(ball(e) > 0)
-    if e.is_positive is None:
-        raise InputError(f"it isn't known whether {e} is positive")
-    return bool(e.is_positive)
-
-
-def point_between(low: Expr, high: Expr) -> Expr:
-    """A rational number between two ends, at 3/7 of the way, where nothing is likely to vanish."""
-    if low.is_infinite and high.is_infinite:
-        return sympy.Rational(3, 7)
-    if low.is_infinite:
-        return (high if high.free_symbols else sympy.floor(high)) - sympy.Rational(10, 7)
-    if high.is_infinite:
-        return (low if low.free_symbols else sympy.ceiling(low)) + sympy.Rational(10, 7)
-    if low.free_symbols | high.free_symbols:
-        return low + (high - low) * sympy.Rational(3, 7)
-    width = ball(high) - ball(low)
-    if not width > 0:
-        raise InputError(f"the interval is empty: {low} isn't below {high}")
-    return dyadic_midpoint(ball(low) + width * fmpq(3, 7))
-
-
-def dyadic_midpoint(value: Any) -> Expr:
-    """The midpoint of a ball, exactly."""
-    return sympy.Rational(to_fraction(value.mid().fmpq()))
 
 
 def _check_weight(piece: Stretch, x: Expr, inside: Expr) -> None:
@@ -228,7 +188,7 @@ def _is_without_roots(piece: Stretch, x: Expr, inside: Expr) -> bool:
     polynomial = sympy.Poly(num * den, x)
     if polynomial.domain not in (sympy.ZZ, sympy.QQ) or not ball(piece.W.subs(x, inside)) > 0:
         return False
-    return not any(_is_below(piece.low, root) and _is_below(root, piece.high) for root in polynomial.real_roots())
+    return not any(is_below(piece.low, root) and is_below(root, piece.high) for root in polynomial.real_roots())
 
 
 def _is_positive(W: Expr, x: Expr, ends: tuple[arb, arb], vanishes: Sequence[bool], halvings: int) -> bool:

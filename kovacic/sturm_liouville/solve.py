@@ -16,13 +16,14 @@ from typing import Any
 from flint import arb
 
 from kovacic.algebra.precision import working_precision
+from kovacic.closed_form.order import ball
 from kovacic.enclosure.ball import Ball, finite_ball
 from kovacic.enclosure.frame import upper_exponent
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 from kovacic.sturm_liouville.ends import End, SingularEnd, at_threshold, end_of
 from kovacic.sturm_liouville.levels import Count, Eigenvalues, Level, PeriodicCounter, SeparatedCounter
-from kovacic.sturm_liouville.problem import Span, SturmProblem, ball, kept
+from kovacic.sturm_liouville.problem import Span, SturmProblem, kept
 
 #: Attempts to count at a number, and to tell two levels apart or cut an end nearer to infinity.
 _COUNT_ATTEMPTS = 5

@@ -455,3 +455,10 @@ def test_a_sign_whose_zero_has_no_formula(n: int) -> None:
     place = f"x - CRootOf(x**{n} - x - 1, 0)"
     wanted = f"C1*cos(x) + C2*sin(x) + 2*(1 - cos({place}))*Heaviside({place}) - 1"
     assert str(kovacic.dsolve(f"y'' + y = sign(x^{n} - x - 1)").rhs) == wanted
+
+
+@pytest.mark.parametrize(("first", "second"), [("1", "1+10^(-20)"), ("10^20", "10^20+1")])
+def test_jumps_that_are_close_to_one_another(first: str, second: str) -> None:
+    """In double precision they were one point, and the right answer failed its check."""
+    jumps = f"Heaviside(x-{first}) - Heaviside(x-{second})"
+    assert len(kovacic.dsolve(f"y' + y = {jumps}").rhs.atoms(sympy.Heaviside)) == 2
