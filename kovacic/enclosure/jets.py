@@ -301,8 +301,10 @@ class CoefficientField:
         with working_precision(_BITS_OF_BOUNDS + longer):
             h = arb((1, e))
             near = self.sizes(centre, h)
-            rate = arb(0) if near is None else _growth_rate(near, h)
-            if near is None or not rate <= _EXCESS_OF_BOXES * steepest:
+            if near is None:
+                return None
+            rate = _growth_rate(near, h)
+            if not rate <= _EXCESS_OF_BOXES * steepest:
                 return None
             inner = self.sizes(centre, h / 4)
             # Next to a solution of size 1, a right-hand side below 1 doesn't count.

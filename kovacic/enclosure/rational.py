@@ -243,7 +243,7 @@ def swing(system: System, a: ExactPoint, b: ExactPoint, prec: int) -> Step:
 def _towards(system: System, end: ExactPoint, prec: int) -> Oscillation | None:
     """The solutions on the half line of the end, if amplitude and phase may be the faster way there."""
     d = len(system.num) - len(system.den)
-    if d < -1 or not system.num or end.x == 0:
+    if d < -1 or not system.num:
         return None
     sign = 1 if end.x > 0 else -1
     # S(sign x) ~ -c x^d for x to infinity.

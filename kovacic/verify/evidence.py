@@ -143,7 +143,7 @@ def _fails_at(point: Point, rule: Rule, structure: Structure) -> bool:
     if rule is Rule.RAMIFIED:
         return k > 2 and k % 2 == 1
     if rule is Rule.NOT_A_SQUARE:
-        return k > 0 and k % 2 == 0 and is_proven_irrational(point)
+        return k % 2 == 0 and is_proven_irrational(point)
     if rule is Rule.LOGARITHM:
         return point.logarithm
     if rule is Rule.IRREGULAR:

@@ -864,3 +864,18 @@ def test_the_unknown_function_is_no_parameter_of_S(given: Any) -> None:
 def test_a_function_that_is_given_by_its_name_is_one_of_the_variable(argument: str) -> None:
     with pytest.raises(kovacic.InputError):
         kovacic.dsolve(f"y'' + y = g({argument})", "y(x)")
+
+
+def test_a_refusal_marks_the_part_and_what_stands_beside_it() -> None:
+    """30 characters on either side, a mark of one to 40 characters, and the remedy of each door."""
+    text = "0123456789" * 12
+    one = kovacic.InputError("it is wrong", text=text, position=47, hint="in Python", shell="in a shell")
+    beside = f"    {text[17:78]}\n    {' ' * 30}^"
+    assert str(one) == f"it is wrong\n  at position 47:\n{beside}\n  hint: in Python"
+    assert one.for_shell() == f"it is wrong\n  at position 47:\n{beside}\n  hint: in a shell"
+    assert one.excerpt == "7"
+    long = kovacic.InputError("it is long", text=text, position=5, length=45)
+    assert str(long) == f"it is long\n  at position 5:\n    {text[:80]}\n         {'^' * 40}"
+    none = kovacic.InputError("at the end", text="a\nb", position=3, length=0)
+    assert str(none) == "at the end\n  at position 3:\n    a b\n       ^"
+    assert (none.excerpt, kovacic.InputError("nowhere", text=text).excerpt) == ("", None)

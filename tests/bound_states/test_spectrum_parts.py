@@ -1,0 +1,87 @@
+"""Parts of the room `kovacic.bound_states`, alone: roots, the shortest forms, the numbers of a family, bounds of V."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import sympy
+
+from kovacic.bound_states.closed_forms import _number_below
+from kovacic.bound_states.energies import Root, exact_root, shortest_form
+from kovacic.bound_states.levels import Levels
+
+x = sympy.Symbol("x")
+
+
+@pytest.mark.parametrize(
+    ("square", "root"),
+    [
+        ("3 + 4*I", "2 + I"),
+        ("5 - 12*I", "3 - 2*I"),
+        ("18", "3*sqrt(2)"),
+        ("-45", "3*sqrt(5)*I"),
+        ("(4*a^2 + 12*a*b + 9*b^2)/(25*c^2)", "(2*a + 3*b)/(5*c)"),
+        ("a^2 + 6*I*a*b - 9*b^2", "a + 3*I*b"),
+        ("7*a^4/(b + 3)^2", "sqrt(7)*a^2/(b + 3)"),
+        ("a^3", None),
+        ("a^2 + 1", None),
+    ],
+)
+def test_roots_without_radicals(square: str, root: str | None) -> None:
+    found = exact_root(sympy.sympify(square))
+    if root is None:
+        assert found is None
+    else:
+        assert sympy.expand(found - sympy.sympify(root)) * sympy.expand(found + sympy.sympify(root)) == 0
+
+
+def test_a_root_that_is_not_real_is_known_by_its_parts() -> None:
+    a, b = sympy.symbols("a b", positive=True)
+    square = a**2 - 3 + 5 * sympy.I * b
+    found = Root.of(square, sympy.Symbol("E"))
+    (p, real), (q, imaginary) = found.radicals
+    assert sympy.expand(found.value - p - sympy.I * q) == 0
+    values = {a: sympy.Rational(7, 3), b: sympy.Rational(2, 5)}
+    z = complex(sympy.N((real + sympy.I * imaginary).subs(values)))
+    assert abs(z**2 - complex(square.subs(values))) < 1e-14
+    assert z.real > 0
+
+
+def test_the_shortest_of_some_forms() -> None:
+    a, b, k = sympy.symbols("a b k")
+    number = sympy.Dummy("n", integer=True)
+    assert str(shortest_form((-a - b) ** 2)) == "(a + b)**2"
+    assert str(shortest_form(a**2 + 2 * a * b + b**2, (a + b) ** 2 * 1)) == "(a + b)**2"
+    assert str(shortest_form((3 * a + 3 * b) * k - 3 * k * b)) == "3*a*k"
+    fractions = shortest_form((number**2 + 5 * number + 7) / (number + 2))
+    assert sympy.cancel(fractions - number - 3 - 1 / (number + 2)) == 0
+
+
+def test_the_numbers_of_a_family() -> None:
+    number = sympy.Dummy("n", integer=True, nonnegative=True)
+
+    def numbers(*conditions: Any) -> tuple[str, tuple[Any, ...]]:
+        levels = Levels(number, 3 * number + 2, x, conditions, number, None)
+        return levels.numbers, levels.demands
+
+    assert numbers(number < 7) == ("0, 1, ..., 6", ())
+    assert numbers(2 * number > 3)[0] == "0, 1, 2, ..."
+    assert numbers()[0] == "0, 1, 2, ..."
+    assert Levels(number, number, x, (number < 0,), number, None).is_empty
+
+
+def test_numbers_below_a_function() -> None:
+    """-1/t falls without a bound; 3 + 2/(t^2 + 1) and (t - 4)^2 + 1/3 don't, and t^3 has its least value at the left end."""
+    t = sympy.Symbol("t")
+    assert _number_below(-1 / t, t, (sympy.S.Zero, sympy.oo)) == -sympy.oo
+    assert _number_below(3 + 2 / (t**2 + 1), t, ()) == -sympy.oo
+    assert _number_below(sympy.sqrt(2) * t, t, sympy.sympify((1, 2))) == -sympy.oo
+    for V, bounds, least in (
+        (3 + 2 / (t**2 + 1), (1, sympy.oo), 3),
+        ((t - 4) ** 2 + sympy.Rational(1, 3), (-sympy.oo, sympy.oo), sympy.Rational(1, 3)),
+        (t**3 - 50, (-3, 5), -77),
+    ):
+        below = _number_below(V, t, sympy.sympify(bounds))
+        assert least - 200 < below <= least
+        assert below == sympy.floor(below)
