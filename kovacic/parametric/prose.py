@@ -219,10 +219,11 @@ def _any_of(claim: AnyOf) -> str:
 def _of_one_value(parts: Sequence[Claim]) -> str | None:
     """`n = 0` or `-1`, if all are equations with the same left side."""
     sides = [sides_of_equation(part.function) for part in parts if isinstance(part, IsZero)]
-    if not 1 < len(sides) == len(parts) or len({side.left for side in sides}) > 1:
+    left = {side.left for side in sides}
+    if len(sides) != len(parts) or len(left) != 1:
         return None
     first, *others = (side.right for side in sides)
-    return _alternatives([f"{sides[0].left} = {first}", *others])
+    return _alternatives([f"{left.pop()} = {first}", *others])
 
 
 def _of_common_numbers(parts: Sequence[Claim]) -> str | None:

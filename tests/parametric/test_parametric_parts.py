@@ -27,16 +27,25 @@ from kovacic.parametric import prose
 from kovacic.parametric.api import contradictions
 from kovacic.parametric.assumptions import Known, check_values, linear_of, read_assumptions, words_of
 from kovacic.parametric.claims import (
+    EVEN,
     INTEGERS,
     ODD,
+    AllOf,
     AnyOf,
+    Claim,
     Classes,
     DegreeBySum,
     DegreeExists,
+    EquationFor,
     ExponentRoot,
+    Free,
+    InClasses,
     IntegerFamily,
+    IsNonzero,
+    IsZero,
     Numbers,
     ParameterPoint,
+    SumOfRoots,
     over_parameters,
 )
 from kovacic.parametric.exponents import _primitive, without_constant_pivots, zeros_of_forms
@@ -602,3 +611,164 @@ def test_degrees_on_a_curve_are_given_by_their_equation() -> None:
     a, d = field.generator("a"), field.poly([0, 1])
     natural = Natural(RatFunc(d), 4, (over_parameters(d**2 - a**3 - a**2),))
     assert natural.text() == "d^2 - a^3 - a^2 = 0, d in N, and Delta_d = 0 for an invariant of degree 4"
+
+
+def test_what_claims_say() -> None:
+    """Every kind of claim and of their combinations, with different numbers in each role."""
+    field = FunctionField(("a", "b"))
+    a, b = map(field.generator, field.names)
+    n = field.poly([0, 1])
+    d = RatFunc(n)
+    third, four = Classes.of([1, 2], 3), Classes.of([1, 3, 4], 5)
+
+    def f(value: Any, numbers: Classes = INTEGERS, poles: tuple[Free, ...] = (), name: str = "a") -> IntegerFamily:
+        return IntegerFamily("n", name, value, numbers, poles)
+
+    def e(equation: Any, numbers: Classes = ODD) -> EquationFor:
+        return EquationFor("n", over_parameters(equation), numbers)
+
+    def g(value: Any, name: str = "a", poles: tuple[Free, ...] = ()) -> IntegerFamily:
+        return IntegerFamily("d", name, value, INTEGERS, poles)
+
+    def deg(*parts: Claim, m: int = 1) -> DegreeExists:
+        return DegreeExists("d", AnyOf(parts) if len(parts) > 1 else parts[0], m, lambda *_: True)
+
+    def N(constant: str, *roots: ExponentRoot) -> Numbers:
+        return Numbers(F(constant), roots, field, field)
+
+    said = [
+        (InClasses(a + b + F(1, 2), INTEGERS), "a + b - 1/2 in Z"),
+        (InClasses(a - b - F(1, 3), INTEGERS), "a - b - 1/3 in Z"),
+        (InClasses(a + 2 * b + F(7, 2), ODD), "(4*b + 7)/2 + a is an odd integer"),
+        (InClasses(2 * a + b, Classes.of([F(1, 6), F(5, 6), F(1, 2)], 1)), "2*a + b = 1/6 mod 1/3"),
+        (InClasses(2 * a + b, Classes.of([F(1, 5), F(2, 5)], 1)), "2*a + b = 1/5, 2/5 mod 1"),
+        (InClasses(2 * a + b, Classes.of([0, F(1, 2)], F(3))), "2*a + b = 0, 1/2 mod 3"),
+        (AnyOf((InClasses(a + b, ODD), InClasses(a - b, ODD))), "a + b or a - b is an odd integer"),
+        (
+            AnyOf((InClasses(a + b, ODD), InClasses(a - b, ODD), InClasses(a, ODD))),
+            "one of a + b, a - b or a is an odd integer",
+        ),
+        (AnyOf((InClasses(a + b, INTEGERS), InClasses(a - b, INTEGERS))), "a + b in Z or a - b in Z"),
+        (
+            AnyOf((InClasses(a + b, INTEGERS), InClasses(a - b + F(1, 2), INTEGERS), InClasses(a, INTEGERS))),
+            "one of a + b, a - b - 1/2 or a is an integer",
+        ),
+        (AnyOf((InClasses(a + b, ODD), InClasses(a - b, EVEN))), "a + b is an odd integer or a - b is an even integer"),
+        (
+            AnyOf((InClasses(a + b, Classes.of([1], 3)), InClasses(a - b, EVEN))),
+            "a + b = 1 mod 3 or a - b is an even integer",
+        ),
+        (AnyOf((InClasses(a + b, third), InClasses(a - b, EVEN))), "a + b = +-1 mod 3, or a - b is an even integer"),
+        (AnyOf((InClasses(a + b, third), InClasses(a - b, third))), "a + b = +-1 mod 3, or a - b = +-1 mod 3"),
+        (AnyOf((IsZero(a - 3), IsZero(a + b))), "a = 3 or -b"),
+        (AnyOf((IsZero(a - 3), IsZero(a - 5), IsZero(a + 7))), "a = 3, 5 or -7"),
+        (AnyOf((IsZero(a - 3), IsNonzero(a - 5))), "a = 3, or a != 5"),
+        (AnyOf((IsZero(a - 3), IsZero(b - 5))), "a = 3 or b = 5"),
+        (AllOf((AnyOf((IsZero(a - 3), IsZero(a - 5))), IsNonzero(b))), "a = 3 or 5, and b != 0"),
+        (AllOf((AnyOf((IsZero(a - 3), IsZero(b - 5))), InClasses(a, INTEGERS))), "(a = 3 or b = 5), and a in Z"),
+        (InClasses(2 * a + b, Classes.of([0, F(1, 6), F(5, 6), F(1, 2)], 1)), "2*a + b = 0, +-1/6, 1/2 mod 1"),
+        (InClasses(a - b, INTEGERS), "a - b in Z"),
+        (InClasses(a * 0 + 3 * b - F(7, 3), INTEGERS), "3*b - 1/3 in Z"),
+        (f(2 * d + b), "a = 2*n + b for an integer n"),
+        (f(2 * d + b, ODD), "a = 2*n + b for an odd integer n"),
+        (f(3 * d - b / 2, third), "a = 3*n - b/2 for an integer n not divisible by 3"),
+        (f(3 * d - b / 2, four), "a = 3*n - b/2 for an integer n = 1, 3, 4 mod 5"),
+        (f(d * d / b, EVEN), "a = n^2/b for an even integer n"),
+        (f(1 / (d - b), ODD, (Free(b, b - 2),)), "a = 1/(n - b) (b - 2 = 0 where n = b) for an odd integer n"),
+        (
+            f(1 / (d - b), ODD, (Free(b, (b - 2) * (b + 3) * (b + 5)), Free(b + 1, b - 7))),
+            "a = 1/(n - b) ((b - 2)*(b + 3)*(b + 5) = 0 where n = b, b - 7 = 0 where n = b + 1) for an odd integer n",
+        ),
+        (AnyOf((f(2 * d + b), f(3 * d))), "a = 2*n + b or a = 3*n for an integer n"),
+        (AnyOf((f(2 * d + b), f(3 * d, name="b"))), "a = 2*n + b or b = 3*n for an integer n"),
+        (AnyOf((f(2 * d + b), f(3 * d, ODD))), "a = 2*n + b for an integer n, or a = 3*n for an odd integer n"),
+        (
+            AnyOf((f(2 * d + b, ODD, (Free(b, b - 2),)), e(n * n - 3))),
+            "a = 2*n + b (b - 2 = 0 where n = b) or n^2 - 3 = 0 for an odd integer n",
+        ),
+        (e(2 * n - 5), "n = 5/2 for an odd integer n"),
+        (e(n - b), "n - b = 0 for an odd integer n"),
+        (e(n * n - 5), "n^2 - 5 = 0 for an odd integer n"),
+        (e(n * n * b - a + F(3, 2), EVEN), "2*b*n^2 - 2*a + 3 = 0 for an even integer n"),
+        (AnyOf((e(n * n - 5), InClasses(a, INTEGERS))), "n^2 - 5 = 0 for an odd integer n, or a in Z"),
+        (
+            SumOfRoots(over_parameters(a + 1), (over_parameters(a), over_parameters(b + 2)), ODD),
+            "a + 1 +- sqrt(a) +- sqrt(b + 2) is an odd integer",
+        ),
+        (
+            SumOfRoots(over_parameters(a * 0), (over_parameters(4 * a), over_parameters(b + 2)), INTEGERS),
+            "2*sqrt(a) +- sqrt(b + 2) is an integer",
+        ),
+        (
+            AnyOf((SumOfRoots(over_parameters(a + 1), (over_parameters(a),), ODD), InClasses(b, ODD))),
+            "a + 1 +- sqrt(a) or b is an odd integer",
+        ),
+        (
+            AnyOf((SumOfRoots(over_parameters(a + 1), (over_parameters(a),), third), InClasses(b, ODD))),
+            "a + 1 +- sqrt(a) is an integer not divisible by 3 or b is an odd integer",
+        ),
+        (
+            AnyOf((SumOfRoots(over_parameters(a + 1), (over_parameters(a),), third), IsZero(b - 3))),
+            "a + 1 +- sqrt(a) is an integer not divisible by 3 or b = 3",
+        ),
+        (deg(g(2 * d + b), m=4), "a = 2*d + b for an integer d, d in N, and Delta_d = 0 for an invariant of degree 4"),
+        (deg(g(b + d), g(b - d)), "a = b +- d, d in N, and Delta_d = 0"),
+        (
+            deg(g(2 * d), g(3 - d), g(3 * d * d), m=6),
+            "a = 2*d, -d + 3 or 3*d^2, d in N, and Delta_d = 0 for an invariant of degree 6",
+        ),
+        (
+            deg(g(2 * d, "b"), g(3 - d, "a"), EquationFor("d", over_parameters(n * n - b), INTEGERS)),
+            "d^2 - b = 0 or b = 2*d or a = -d + 3, d in N, and Delta_d = 0",
+        ),
+        (
+            deg(EquationFor("d", over_parameters(2 * n - 7), INTEGERS), g(d * a, "b")),
+            "d = 7/2 or b = a*d, d in N, and Delta_d = 0",
+        ),
+        (
+            deg(g(2 * d), g(5 - 2 * d), g(3 * d + 1), g(4 - 3 * d)),
+            "a or 5 - a = 2*d or 3*d + 1, d in N, and Delta_d = 0",
+        ),
+        (deg(g(2 * d), g(5 - 2 * d)), "a = 2*d or -2*d + 5, d in N, and Delta_d = 0"),
+        (
+            deg(g(2 * d), g(5 - 2 * d), g(3 * d + 1), g(7 - 3 * d)),
+            "a = 2*d, -2*d + 5, 3*d + 1 or -3*d + 7, d in N, and Delta_d = 0",
+        ),
+        (deg(g(d), g(-d), g(2 * d + 1), g(-2 * d - 1)), "a = +-d or +-(2*d + 1), d in N, and Delta_d = 0"),
+        (deg(g(d + b), g(1 - d - b), g(d - b), g(1 - d + b)), "a or 1 - a = d + b or d - b, d in N, and Delta_d = 0"),
+        (
+            deg(g(2 * d), AllOf((g(3 * d + b, "a"), IsZero(b - 7)))),
+            "a = 2*d, or a = 3*d + b for an integer d where b = 7, d in N, and Delta_d = 0",
+        ),
+        (
+            deg(g(1 / (d - b), "a", (Free(b, b - 2),)), g(3 * d)),
+            "a = 1/(d - b) or 3*d (b - 2 = 0 where d = b), d in N, and Delta_d = 0",
+        ),
+        (deg(g((b - 3 * d) / 2), g((b + 3 * d) / 2)), "a = b/2 +- 3*d/2, d in N, and Delta_d = 0"),
+        (deg(g(2 * b + d), g(2 * b - d), g(d * b)), "a = 2*b +- d or b*d, d in N, and Delta_d = 0"),
+        (
+            DegreeBySum("d", N("3/2", ExponentRoot(a, 2), ExponentRoot(b + 1, 3)), ("k", "l"), True),
+            "d = 3/2 + k*sqrt(a) + l*sqrt(b + 1) for integers k from -2 to 2, l from -3 to 3",
+        ),
+        (
+            DegreeBySum("d", N("3/2", ExponentRoot(a, 2), ExponentRoot(b + 1, 3)), ("k", "l")),
+            "d = 3/2 + k*sqrt(a) + l*sqrt(b + 1) for integers k from -2 to 2, l from -3 to 3, not all 0",
+        ),
+        (
+            DegreeBySum("d", N("-5", ExponentRoot(a / 4, 2)), ("k",)),
+            "d = -5 + k*sqrt(a)/2 for integers k from -2 to 2, not 0",
+        ),
+        (DegreeBySum("d", N("3/2", ExponentRoot(a, 1), ExponentRoot(b + 1, 1))), "d - 3/2 = +-sqrt(a) +- sqrt(b + 1)"),
+        (DegreeBySum("d", N("-3", ExponentRoot(a, 1))), "d + 3 = +-sqrt(a)"),
+        (
+            deg(g(2 * d), g(5 - 2 * d), g(d * 0 + F(5, 2)), g(3 * d), g(5 - 3 * d)),
+            "a = 2*d, -2*d + 5, 5/2, 3*d or -3*d + 5, d in N, and Delta_d = 0",
+        ),
+        (
+            deg(g(d), g(1 / d - d), g(2 * d), g(1 / d - 2 * d)),
+            "a = d, -d + 1/d, 2*d or -2*d + 1/d, d in N, and Delta_d = 0",
+        ),
+    ]
+    assert [text_of_words(prose.sentence(claim)) for claim, _ in said] == [text for _, text in said]
+    claim = AnyOf((InClasses(a, third), IsNonzero(b - 5)))
+    assert prose.latex_of_claim(claim) == r"a \equiv \pm 1 \pmod{3}\text{, or } b \ne 5"

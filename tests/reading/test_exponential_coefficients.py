@@ -14,6 +14,7 @@ import sympy
 from build import parametrize, read_input, run, sample, size
 
 import kovacic
+from kovacic.reading.change_of_variable import SQUARES, is_of_a_line, slope_squared
 
 F = Fraction
 x = sympy.Symbol("x")
@@ -599,3 +600,51 @@ def test_a_singular_point_that_is_ordinary_for_special_numbers_counts() -> None:
     solution = kovacic.solve("1/4 + 15*sech(x)^2/8")
     assert solution.equation.change.expression == family.equation.change.expression == "exp(2*x)"
     assert solution.case == family.case_at({"a": "-1/4", "l": "5/4"})
+
+
+@pytest.mark.parametrize(
+    ("text", "variable"),
+    [
+        ("y'' + 3*exp(2*x)/(exp(2*x)+5)*y' + (2*exp(4*x)-7)/(exp(2*x)-3)*y = 11*exp(6*x)/(exp(2*x)+2)", "exp(2*x)"),
+        ("(2+sin(3*x))*y'' + 5*cos(3*x)*y' + (7+sin(3*x)^2)*y = 11*sin(3*x)", "sin(3*x)"),
+        ("(2+cos(3*x))*y'' + 5*sin(3*x)*y' + (7+cos(3*x)^2)*y = 11*cos(3*x)", "exp(3*I*x)"),
+        ("(2+tan(x/2))*y'' + 5*y' + (7+tan(x/2)^3)*y = 11*tan(x/2)", "tan(x/2)"),
+        ("(2+sinh(3*x))*y'' + 5*cosh(3*x)*y' + (7+sinh(3*x)^2)*y = 11*cosh(3*x)", "exp(3*x)"),
+        ("sin(4*t)*y'' + 3*cos(2*t)*y' + 5*y = 0", "tan(t)"),
+        ("y'' + 3*cos(4*x)*y' + 5*sin(2*x)^2*y = 0", "tan(2*x)"),
+        ("3*exp(2*x+1)*y'' + (5 - exp(-4*x-2))*y' + 7*y = log(x)*exp(x)", "exp(2*x + 1)"),
+        ("2*y'' + (3*exp(2*x+1) + exp(4*x+5))*y' + 5*exp(6*x+3)*y = exp(6*x+2)", "exp(2*x + 1)"),
+        ("3*x^2*y'' + x*y' + (2*x^(2/3) + 5*x^(4/3) + 7)*y = 0", "x**(2/3)"),
+        ("x^2*y'' + 2*x*y' + (3*x^n + 5*x^(2*n))*y = 0", "x**n"),
+        ("x*y'' - y' + 7*x^3*exp(3*x^2)*y = 0", "exp(3*x**2)"),
+        ("x*y'' + (3*x^3*sin(x^3) - 2)*y' + 7*x^5*cos(x^3)^2*y = 0", "exp(I*x**3)"),
+        ("4*u*y'' + (2 + 5*sqrt(u)*tanh(sqrt(u)))*y' + exp(2*sqrt(u))*y = 0", "exp(2*sqrt(u))"),
+    ],
+)
+def test_the_equation_in_the_new_variable_is_the_given_one(text: str, variable: str) -> None:
+    """y' = t' dy/dt and y'' = t'^2 d^2y/dt^2 + t'' dy/dt, put into the given equation at a point."""
+    equation = read_input(text, exponentials=True).equation
+    assert equation.change.expression == variable
+    here = sympy.Symbol(equation.change.variable)
+    values = {here: sympy.Float("1.4", 30), "n": sympy.Rational(5, 3), "e": sympy.E}
+    t = sympy.sympify(variable, {equation.change.variable: here})
+    slope, bend = t.diff(here).subs(values), t.diff(here, 2).subs(values)
+    a, b, c, f = (
+        sympy.sympify(part.to_str().replace("^", "**")).subs(x, t.subs(values)).subs(values) / slope**k
+        for part, k in zip((equation.a, equation.b, equation.c, equation.f), (2, 1, 0, 0), strict=True)
+    )
+    b -= a * bend / slope
+    found = [b / a, c / a, f / a if equation.h is None else equation.h.subs(values)]
+    left, right = text.replace("^", "**").replace("y''", "Y2").replace("y'", "Y1").replace("*y ", "*Y0 ").split("=")
+    terms = sympy.expand(sympy.sympify(left, {str(here): here}))
+    given = [sympy.sympify(right, {str(here): here}), *(terms.coeff(name) for name in ("Y2", "Y1", "Y0"))]
+    f, a, b, c = (part.subs(values) for part in given)
+    assert [size(one - other) < 1e-15 for one, other in zip(found, (b / a, c / a, f / a), strict=True)] == [True] * 3
+    if is_of_a_line(equation):
+        assert size(slope_squared(equation).subs(equation.variable, t.subs(values)) - slope**2) < 1e-15
+
+
+@pytest.mark.parametrize("function", SQUARES, ids=str)
+def test_the_square_of_the_derivative_is_a_function_of_the_value(function: Any) -> None:
+    point = sympy.Float("0.6", 30)
+    assert size(SQUARES[function](function(point)) - function(x).diff(x).subs(x, point) ** 2) < 1e-25
