@@ -10,7 +10,6 @@ from kovacic.answer import Answer
 from kovacic.decision import Status
 from kovacic.equation import parameters_of
 from kovacic.errors import LimitExceeded, visible
-from kovacic.reading.change_of_variable import function_of_x
 from kovacic.reading.pieces import Paste
 from kovacic.views.sentences import (
     NOT_DECIDED,
@@ -148,6 +147,8 @@ def latex_view(answer: Answer) -> str:
     found, _ = _solutions_in_time(answer)
     lines = [equation_of(answer).latex]
     if answer.equation is not None and answer.change is not None:
+        from kovacic.reading.change_of_variable import function_of_x  # imports SymPy
+
         lines.append(Math.of(answer.variable).equals(of_sympy(function_of_x(answer.equation))).latex)
     if answer.status in _NEITHER:
         lines.append(rf"\text{{{_NEITHER[answer.status]}}}")

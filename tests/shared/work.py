@@ -6,8 +6,10 @@ one that isn't meant, a slower or a blunter way, doesn't pass unseen.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from decimal import Decimal
+from functools import _lru_cache_wrapper
 from typing import Any
 
 from clocks import controlled
@@ -29,8 +31,18 @@ def _balls(found: Any) -> Iterator[Ball]:
             yield from _balls(one)
 
 
+def _forget() -> None:
+    """Empty what is kept from one call to the next, or the work would depend on the tests that came before."""
+    modules = [module for name, module in sys.modules.items() if name.startswith("kovacic.")]
+    for kept in {
+        value for module in modules for value in vars(module).values() if isinstance(value, _lru_cache_wrapper)
+    }:
+        kept.cache_clear()
+
+
 def check_work(call: Callable[[], Any], looks: int, balls: list[str]) -> None:
     """The looks at the clock during the call, and the balls of what it returns, whose radii depend a little on FLINT."""
+    _forget()
     with controlled() as hands:
         found = call()
     shown = [*map(printed, _balls(found))]
