@@ -1154,10 +1154,18 @@ def test_the_kinetic_factor_of_closed_forms() -> None:
 
 
 @pytest.mark.parametrize(
-    "equation", ["psi'' + x*psi' = E*psi", "-psi'' + x*psi = 0", "-x*psi'' + psi = E*psi", "psi'' + psi = E*psi + 1"]
+    ("equation", "said"),
+    [
+        ("psi'' + x*psi' = E*psi", "without a first derivative"),
+        ("-psi'' + x*psi = 0", "the equation has no energy E"),
+        ("-psi'' + x*psi = E^2*psi", "the equation has no energy E"),
+        ("-x*psi'' + psi = E*psi", "the factor of psi'' over that of E, x, isn't a positive constant"),
+        ("3*psi'' + psi = 2*E*psi", "the factor of psi'' over that of E, -3/2, isn't a positive constant"),
+        ("psi'' + psi = E*psi + 1", "without a first derivative"),
+    ],
 )
-def test_other_equations_are_refused(equation: str) -> None:
-    with pytest.raises(kovacic.InputError):
+def test_other_equations_are_refused(equation: str, said: str) -> None:
+    with pytest.raises(kovacic.InputError, match=said):
         kovacic.spectrum(equation)
 
 

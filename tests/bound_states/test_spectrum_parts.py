@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 import sympy
 
 from kovacic.bound_states.closed_forms import _number_below
 from kovacic.bound_states.energies import Root, exact_root, shortest_form
 from kovacic.bound_states.levels import Levels
+from kovacic.bound_states.picture import DrawnLevel, draw_levels
 
 x = sympy.Symbol("x")
 
@@ -85,3 +87,22 @@ def test_numbers_below_a_function() -> None:
         below = _number_below(V, t, sympy.sympify(bounds))
         assert least - 200 < below <= least
         assert below == sympy.floor(below)
+
+
+def test_the_height_of_a_picture() -> None:
+    """From the ground level less the distance of levels up to a barrier, where that is near: 5 + 3/10 of the distance, 3/2."""
+
+    def drawn(barrier: float) -> Any:
+        levels = [DrawnLevel(E, lambda x: np.exp(-(x**2)), f"{E}") for E in (1.0, 2.5)]
+
+        def V(x: Any) -> Any:
+            return np.where(np.abs(x) < 1, 0.25, barrier)
+
+        figure = draw_levels(V, levels, (-3.0, 3.0), variable="x", title="t", impulses=[])
+        (axes,) = figure.axes
+        assert axes.get_xlim() == pytest.approx((-2.43425, 2.43425))
+        return axes.get_ylim()
+
+    assert drawn(5.0) == pytest.approx((-0.5, 5.45))
+    assert drawn(6.9) == pytest.approx((-0.5, 7.35))
+    assert drawn(7.1) == pytest.approx((-0.5, 4))

@@ -202,6 +202,8 @@ def test_finite_groups_of_triangles_are_checked(S: RatFunc, order: int) -> None:
     """The last one has all its singular points at finite places."""
     answer = solve(S)
     assert answer.group.order == order
+    assert bool(answer.verify())
+    assert answer.verify().unchecked == ()
     assert checker.verdict(answer.to_json(full=True)).startswith(GROUP_TOO)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from fractions import Fraction
 from itertools import count
+from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
@@ -12,12 +14,14 @@ import mpmath
 import numpy as np
 import pytest
 from build import as_problem, ball_to_flint, bounded_work, evaluate_states, parametrize
+from flint import acb, arb
 from published import load
 
 import kovacic
 from kovacic import AccuracyWarning, InputError, LimitExceeded, tabulate
 from kovacic.doubles import double_double as dd
 from kovacic.doubles.chart import BLOCK, PieceChart
+from kovacic.doubles.curve import _beside_singular_points
 from kovacic.doubles.lambdify import lambdify, measure, measured_points
 from kovacic.doubles.product_form import ProductForm
 from kovacic.enclosure.ball import ball_from_flint
@@ -247,3 +251,20 @@ def test_values_close_to_a_zero_keep_their_relative_accuracy_at_every_point() ->
     points = np.array([0.1, *(zero + k * 2.0**-40 for k in range(-3, 4))])
     assert measure(lambdify(solution, interval=(-5, 5), careful=True), solution, points).worst <= 4
     assert measure(lambdify(solution, interval=(-5, 5)), solution, points).worst <= 40
+
+
+def test_points_of_a_curve_accumulate_at_singular_points() -> None:
+    """At 2 + i/8, beside the axis: 2 and the distances 1/8, 3/16, ... on both sides; at -1, before the begin, 1/2 and more."""
+    beside = SimpleNamespace(singular=[arb(2) + acb(0, 1) / 8])
+    found = _beside_singular_points(beside, 1.75, 4.0)  # type: ignore[arg-type]
+    distances = [0.125 * 1.5**k for k in range(8)]
+    assert found == [x for d in distances if d < 2.25 for x in (2 - d, 2.0, 2 + d) if 1.75 < x < 4]
+    before = SimpleNamespace(singular=[acb(-1)])
+    assert _beside_singular_points(before, -0.5, 1.0) == [-0.25, 0.125]  # type: ignore[arg-type]
+
+
+def test_a_table_far_out_on_the_left() -> None:
+    """Centres are doubles there, too: sin(x + 10^10)."""
+    sine = kovacic.tabulate("-1", -(10**10) - 2, -(10**10), x0=-(10**10), y0=0, dy0=1)
+    for shift in (-1.75, -1.0, -0.25):
+        assert sine(shift - 10.0**10) == pytest.approx(math.sin(shift), rel=1e-15)

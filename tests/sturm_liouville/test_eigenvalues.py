@@ -117,6 +117,10 @@ def test_all_levels_below_the_essential_spectrum_are_known_to_be_all():
 def test_a_note_says_which_solution_is_meant_at_a_singular_end():
     problem = read_eigenproblem("x*y'' + y' + lambda*x*y = 0", "y(1)=0", domain=(0, 1))
     assert "at x = 0 all solutions are square integrable: the smallest one is meant" in str(problem.answer())
+    other = read_eigenproblem(
+        "-y'' + 3/4/x^2*y = lambda*y", "y(1)=0", domain=(0, 1)
+    )  # x^(-1/2) isn't square integrable
+    assert "all solutions" not in str(other.answer())
 
 
 @pytest.mark.long
@@ -131,7 +135,9 @@ def test_a_bound_state_at_the_threshold_leaves_completeness_open():
     ("V", "given", "said"),
     [
         ("-cosh(x)", {}, "limit circle"),
+        ("-x^3", {}, "limit circle"),
         ("-x", {}, "no lowest level"),
+        ("-x^2", {}, "no lowest level"),
         ("I*x^3", {}, "real"),
         ("sin(x)", {}, "no limit"),
         ("-1/x^2", {"domain": HALF_LINE}, "not known to be real"),
