@@ -8,11 +8,13 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
-from build import run
+from build import read_input, run
 
 import kovacic
+from kovacic import InputError
 
 #: Texts of functions, with what is said of them.
 GUESSED = {
@@ -88,3 +90,19 @@ def test_the_command_says_it_too(capsys: pytest.CaptureFixture[str]) -> None:
             assert note in capsys.readouterr().out
     assert run(["solve", "--json", "a^1/2*x^2"]) == 0
     assert any("a root" in note for note in json.loads(capsys.readouterr().out)["notices"])
+
+
+READINGS = [
+    json.loads(line) for line in (Path(__file__).parents[1] / "data" / "readings.jsonl").read_text("utf-8").splitlines()
+]
+
+
+@pytest.mark.parametrize(("text", "said"), [tuple(row.values()) for row in READINGS], ids=range(len(READINGS)))
+def test_what_is_read_and_what_is_said_of_it(text: str, said: list[str]) -> None:
+    """The equation and the notices, or the kind of the error and all of its message, with its position and its hint."""
+    try:
+        read = read_input(text, exponentials=True)
+        found = [str(read.equation or read.S), read.variable, *read.notices]
+    except InputError as error:
+        found = [type(error).__name__, str(error)]
+    assert found == said
