@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import flint
@@ -35,7 +37,7 @@ import kovacic
 from kovacic import Structure
 from kovacic.closed_form.curve import completed, integrate_on_curve, unit
 from kovacic.closed_form.form import ClosedForm
-from kovacic.closed_form.integrals import curve_integral, logarithms
+from kovacic.closed_form.integrals import curve_integral, elliptic, logarithms
 from kovacic.closed_form.jets import parameter_value
 from kovacic.closed_form.primitive import (
     ExponentialPrimitive,
@@ -154,6 +156,26 @@ def test_integrals_of_genus_0_differentiate_back(r: RatFunc, g: Poly) -> None:
         for point in (acb("0.37", "-0.59"), acb("-2.1", "0.3"), acb("1.9", "0.7")):
             expected = jet(Atoms(x).ratio(r) / sympy.sqrt(radicand), x, point)[0]
             assert abs(jet(expression, x, point)[1] - expected) < 1e-20 * (1 + abs(expected))
+
+
+ELLIPTIC = [
+    json.loads(line)
+    for line in (Path(__file__).parents[1] / "data" / "elliptic.jsonl").read_text(encoding="utf-8").splitlines()
+]
+
+
+@pytest.mark.parametrize("row", ELLIPTIC, ids=lambda row: f"{row['r']} over the root of {row['g']}")
+def test_elliptic_integrals(row: dict[str, str]) -> None:
+    """As in the table, and the slope is a constant times r/sqrt(g), up to the sign of the root."""
+    r, g = (read_input(row[key], var="x").S for key in "rg")
+    terms = elliptic(integrate_on_curve(r, g.num), Atoms(x))
+    assert str(terms) == row["terms"]
+    assert terms is not None
+    whole, given = sympy.Add(*(c * e for c, e in terms)), Atoms(x).ratio(r) / sympy.sqrt(Atoms(x).poly(g.num))
+    with flint.ctx.workdps(40):
+        points = acb("0.37", "-0.59"), acb("-2.1", "0.3")
+        first, second = (jet(whole, x, point)[1] / jet(given, x, point)[0] for point in points)
+        assert abs(first * first - second * second) < 1e-20 * abs(first) ** 2
 
 
 def test_torsion_of_a_known_order() -> None:
