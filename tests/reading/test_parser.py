@@ -461,8 +461,8 @@ def test_limits_hold_before_the_work_is_done(text: str, limit: str) -> None:
 
 
 def test_messages_show_part_of_a_long_text() -> None:
-    with pytest.raises(kovacic.InputError, match="of order 100000") as refused:
-        read_input("y" + "'" * 100_000 + " = y")
+    with pytest.raises(kovacic.InputError, match="of order 3000") as refused:
+        read_input("y" + "'" * 3_000 + " = y")
     assert len(str(refused.value)) < 500
 
 
