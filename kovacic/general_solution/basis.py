@@ -21,7 +21,7 @@ from sympy import Function, Pow, S, Tuple, cancel, factor, powsimp
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.atoms import Atoms, display
 from kovacic.closed_form.check import DIGITS
-from kovacic.closed_form.cuts import all_turned
+from kovacic.closed_form.cuts import all_turned, arguments_with_cuts, common_place, with_positive_factors
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.jets import jet
 from kovacic.closed_form.product import product
@@ -86,7 +86,13 @@ class Basis:
             return _simplified(constant) * powsimp(rest)
         w = in_x(self.equation, kernel(self.equation, self.place, self.own).xreplace(NUMBERS))
         w *= function_of_x(self.equation).diff(self.x)
-        W = multiple_of(w, self.y1, self.y2, self.x)
+        place = self.place
+        if place is None:
+            place = common_place(self.x, arguments_with_cuts(Tuple(self.y1, self.y2)), own=self.own)
+        # as the members may be: (1 - x)^k for (x - 1)^k, x^k (1 - x)^k for (x - x^2)^k
+        turned = with_positive_factors(all_turned(w, self.x, place, self.own), self.x, place)
+        found = (multiple_of(v, self.y1, self.y2, self.x) for v in dict.fromkeys((w, turned)))
+        W = next(filter(None, found), None)
         if W is None and self.before is not None and self.before.stated is not None:
             w = self.before.wronskian
             if self.place is not None:
@@ -108,7 +114,7 @@ class Basis:
     def scale(self) -> Expr:
         """The `constant` in the user's symbols if it is elementary, else 1."""
         scale = self.own(self.constant)
-        return S.One if scale.is_zero or scale.has(Function, sympy.Integral, self.x) else scale
+        return S.One if scale.is_zero or _has_functions(scale) or scale.has(sympy.Integral, self.x) else scale
 
     @cached_property
     def dependent(self) -> tuple[Expr, ...]:
@@ -186,22 +192,34 @@ def multiple_of(
     for quotient in chain(_quotients(w, y1, y2, x), _TURNS):
         check_time()
         c = in_single_waves(quotient or 0)
-        is_constant = c != 0 and not c.has(Function, sympy.nan, sympy.zoo)
+        is_constant = c != 0 and not _has_functions(c) and not c.has(sympy.nan, sympy.zoo)
         if is_constant and _is_wronskian(c * w, y1, y2, x, integers):
             return _simplified(c) * w
     return None
 
 
 def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr | None]:
-    """W/w at the points where both have values; then at singular points, where powers of W and w cancel."""
+    """W/w at the points where both have values; then at 0, singular points and oo, where powers of W and w cancel."""
     W = definition(y1, y2, x)
+    u = sympy.Dummy(positive=True)
+    near = {S.Zero: u, sympy.oo: 1 / u}
     for point in _WRONSKIAN_POINTS:
         above, below = (finite_value(e, x, point) for e in (W, w))
         if below:
             yield above and above / below
-    if manageable(W):
-        joined = powsimp(sympy.expand(W / w))
-        yield from (finite_value(joined, x, point) for point in _WRONSKIAN_POINTS)
+        else:
+            near[point] = point + u
+    for value in near.values() if manageable(W) else ():
+        below = sympy.expand(w.subs(x, value), mul=False)
+        terms = sympy.Add.make_args(
+            sympy.expand(W.subs(x, value))
+        )  # of the quotient SymPy would expand the denominator
+        yield finite_value(powsimp(sympy.Add(*(term / below for term in terms))), u, S.Zero)
+
+
+def _has_functions(c: Expr) -> bool:
+    """True for functions other than exp, which has no zero."""
+    return bool(c.atoms(Function) - c.atoms(sympy.exp))
 
 
 def _is_wronskian(W: Expr, y1: Expr, y2: Expr, x: Expr, letters: Mapping[Expr, Expr] = MappingProxyType({})) -> bool:

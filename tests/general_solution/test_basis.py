@@ -198,3 +198,20 @@ def test_beside_an_elementary_solution_the_constant_is_exact(c: Any) -> None:
     assert size(value.subs(x, sympy.S.Half) - 1, 30) < 1e-20
     assert size(value.diff(x).subs(x, sympy.S.Half), 30) < 1e-20
     assert not sympy.denom(sympy.together(answer.eq.rhs)).has(sympy.hyper)
+
+
+@pytest.mark.parametrize(
+    ("equation", "zero"),
+    [
+        pytest.param(
+            "(x^3-x^2)*y'' + (-3*k*x^2+2*k*x+x^2-x)*y' + (2*k^2*x+k*x-2*k-x+1)*y = 0", k - 1, marks=pytest.mark.long
+        ),
+        ("(x-1)^2*y'' - (a*(x-1)+(x-1)^2)*y' + a*x*y = 0", a - 1),
+        pytest.param("(x^3+x^2)*y'' - (2*k*x^2+k*x)*y' + (2*k*x+2*k-2*k^2)*y = 0", 3 * k - 1, marks=pytest.mark.long),
+        ("x^2*y'' + x^2*y' - (k^2+k*x+k)*y = 0", 2 * k + 1),
+    ],
+    ids=["turned", "at 1", "roots of products", "at oo"],
+)
+def test_the_constant_is_found_where_only_one_branch_or_one_singular_point_shows_it(equation: str, zero: Any) -> None:
+    """(D - p)(D - q) y = 0 with a hypergeometric second solution, which is a multiple of the first one at the zero."""
+    assert zero in kovacic.answer_to(equation).basis.dependent
