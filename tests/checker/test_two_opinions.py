@@ -27,6 +27,7 @@ S_OF_EVERY_KIND = [
     "-2/(9*x^2)",
     "2/x^2 + x",
     "2/x^2 + x^3",
+    "2/x^2 + 5 + 7*x",
     "15/(4*x^2) + 3*x",
     "35/(4*x^2) + 5*x^2 + x^6",
     "5/x",
@@ -122,3 +123,16 @@ def test_sums_of_divisor_classes(coefficients: list[int]) -> None:
         assert other.multiple(0, points) == (1, 0)
         for n in (1, 2, 3, 7, 12):
             assert same(other.multiple(n, points), kernel.multiple(n, E))
+
+
+@pytest.mark.parametrize(
+    ("text", "zeros"),
+    [
+        ("(8 + 4*x)/(x^2 - 2)^2", 1),  # 1 - 1 - 1 + ((5 + 2 sqrt(2))^(1/2) + (5 - 2 sqrt(2))^(1/2))/2 = 1.14 at most
+        ("(40 + 4*x)/(x^2 - 2)^2", 3),  # so with 21 in place of 5: 3.57
+        ("(40 + 4*x)/(x^2 - 2)^2 - 3/(16*(x - 7)^2)", 4),  # 1 - 1 - 1/4 - 1/4 + 4.57, with exponents at 7 and infinity
+    ],
+)
+def test_a_bound_of_the_zeros_by_conjugate_exponents(text: str, zeros: int) -> None:
+    answer = json.loads(kovacic.solve(text, limits=kovacic.Limits(unknown_degree=30)).to_json())
+    assert checker.CheckedAnswer(answer).exclusions.zeros == (zeros, True)

@@ -5,6 +5,7 @@ That the balls contain the values is for the other tests.
 
 from __future__ import annotations
 
+from math import cos, pi
 from typing import Any
 
 import pytest
@@ -38,7 +39,7 @@ VALUES = [
         "-3/2",
         start(1, "2/5", "1/3", path=[(1 + 2j)], digits=20, method="taylor"),
         46,
-        ["0.0761895988563367+1.26204127651099e-39j ± 1.1e-31"],
+        ["0.0761895988563367 ± 1.1e-31"],
     ),
     (
         "(x + 2*I)/(x^2 + 17/13)",
@@ -207,6 +208,65 @@ VALUES = [
         87,
         ["4.29823288678785 ± 6.1e-39"],
     ),
+    (
+        "-3/(16*(x - 2/37)^2) + 5/(7*x - 21)",
+        ["5/2", "-3/2"],
+        start(1, "2/5", "1/3", path="above", digits=20, method="taylor"),
+        323,
+        ["0.536237830218819 ± 3.3e-33", "-0.577361044305671+0.419190895143837j ± 5.4e-31"],
+    ),
+    (
+        "-3/(16*(x - 3/37)^2) + 5/(7*x - 21)",
+        ["5/2", "-3/2", 5],
+        start(1, "2/5", "1/3", path="below", digits=20, method="taylor"),
+        549,
+        [
+            "0.534109428215011 ± 3.5e-33",
+            "-0.557536368592415-0.428031222475997j ± 4.7e-31",
+            "-2.24160845022319+2.05905224104674j ± 5.7e-31",
+        ],
+    ),
+    (
+        "x^2 + 5/37",
+        ["1/2", "3/2", "5/2", "-1/2"],
+        start("1/3", "2/5", "1/3", digits=20, method="taylor"),
+        31,
+        [
+            "0.457236003202342 ± 2.7e-33",
+            "1.10843656535138 ± 1.8e-34",
+            "6.28868838065415 ± 1.1e-34",
+            "0.141333294057507 ± 4.1e-34",
+        ],
+    ),
+    (
+        "y'' + 5/37*y' + 3*y = exp(-x)*x^2 + sin(2*x)",
+        ["5/2", "-3/2"],
+        start("1/3", "2/5", "1/3", digits=20),
+        250,
+        ["-0.156361772539623 ± 3.5e-39", "0.0300709193890916 ± 9.5e-39"],
+    ),
+    ("y'' + exp(x/37)*y = 0", ["5/2"], start("1/3", "2/5", "1/3", digits=20), 281, ["0.030099046121185 ± 1.3e-34"]),
+    (
+        "-(x^2 + 7/37)/(x^2 + 3/37)",
+        ["900", "-40"],
+        start(5, "2/5", "1/3", digits=12, method="taylor"),
+        238,
+        ["-0.264983293758459 ± 8.9e-23", "-0.361219397531388 ± 5.0e-22"],
+    ),
+    (
+        "x^2 + 9/37",
+        ["1/2", "3/2"],
+        {"x0": "1/3", "which": "decaying", "y0": 2, "digits": 20},
+        192,
+        ["1.68945452325327 ± 1.3e-33", "0.404667978044235 ± 4.4e-34"],
+    ),
+    (
+        "x + 11/37",
+        ["1/3 + sqrt(2)"],
+        start("sqrt(3)", "2/5", "1/3", digits=20, method="taylor"),
+        74,
+        ["0.405263496858439 ± 2.5e-35"],
+    ),
 ]
 
 
@@ -218,3 +278,120 @@ def _imaginary_unit_is_known() -> None:
 @pytest.mark.parametrize(("equation", "x", "options", "looks", "balls"), VALUES, ids=[str(row[:2]) for row in VALUES])
 def test_the_work_of_values(equation: str, x: Any, options: dict[str, Any], looks: int, balls: list[str]) -> None:
     check_work(lambda: kovacic.evaluate(equation, x, **options), looks, balls)
+
+
+MATRICES = [
+    (
+        "(1 - x^2)*y'' - 2*x*y' + 41/37*y = 0",
+        [-1, "1/3", 1],
+        20,
+        360,
+        [
+            "0.269170431203482 ± 5.2e-33",
+            "0.27630604619591 ± 1.6e-33",
+            "3.35695614242212-0.845623849232455j ± 2.3e-32",
+            "-0.269170431203482-0.868041044871514j ± 6.7e-33",
+        ],
+    ),
+    (
+        "(43/37 - x^2)*y'' - 2*x*y' + 42/37*y = 0",
+        [0, (0.5 + 1j), 2],
+        600,
+        525,
+        [
+            "0.838948984364118-1.78209635092895j ± 1.8e-612",
+            "1.59528771027439+0.84692437304976j ± 1.5e-612",
+            "0.468050693023536-0.557967406445459j ± 1.9e-612",
+            "0.401873910244488+0.265168713038267j ± 1.6e-612",
+        ],
+    ),
+    (
+        "-2/(9*x^2) + 3/(x^3*(x - 19/37))",
+        [2, "oo"],
+        20,
+        202,
+        [
+            "0.0692439156752996 ± 1.9e-40",
+            "4.50824022312185 ± 1.7e-38",
+            "0.572678989030012 ± 2.1e-39",
+            "-6.03988874169533 ± 1.4e-38",
+        ],
+    ),
+    (
+        "-2/(9*x^2) + 5/(x*(x - 19/37))",
+        [0, "19/37"],
+        20,
+        300,
+        [
+            "0.192714124185364 ± 4.2e-33",
+            "0.0147384010371718 ± 1.5e-33",
+            "6.41997747736636-5.89496927394687j ± 1.7e-31",
+            "2.22066513211422-0.450835773602487j ± 6.2e-32",
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(("equation", "path", "digits", "looks", "balls"), MATRICES, ids=[row[0] for row in MATRICES])
+def test_the_work_of_connections(equation: str, path: Any, digits: int, looks: int, balls: list[str]) -> None:
+    check_work(lambda: kovacic.connection_matrix(equation, path, digits=digits), looks, balls)
+
+
+LOOPS = [
+    (
+        "-3/(16*x^2) + 5/(7*x - 23/37)",
+        [2, 1],
+        1765,
+        [
+            "-7.0388583691267+1.48205690060431j ± 5.9e-20",
+            "5.43210064104943+5.24415988712286j ± 5.0e-20",
+            "-2.68769801341819+6.43557578502357j ± 8.7e-20",
+            "7.0388583691267-1.48205690060431j ± 7.1e-20",
+            "-1.34942457022601-2.06883005183453j ± 1.2e-20",
+            "-1.32053340217405+3.13976380168131j ± 1.1e-20",
+            "-2.48966492185592+1.44196315497217j ± 1.5e-20",
+            "3.34942457022601+2.06883005183453j ± 1.4e-20",
+        ],
+    ),
+    (
+        "-2/(9*x^2) + 1/(x^2 + x + 41/37)",
+        [1, 1, 2],
+        2872,
+        [
+            "9.72797970848029+14.6105634330796j ± 1.2e-20",
+            "16.9888847202494-21.1618911006969j ± 2.1e-20",
+            "10.4957579137174-1.93840366213966j ± 6.2e-21",
+            "-7.72797970848029-14.6105634330796j ± 1.2e-20",
+            "15.2753616561644+38.9105409096838j ± 5.3e-20",
+            "48.3071527058508-49.0467317260791j ± 8.7e-20",
+            "24.8527782293945+2.23617938480431j ± 2.9e-20",
+            "-13.2753616561644-38.9105409096838j ± 4.8e-20",
+            "-7.05525276076592-7.45868339699927j ± 3.8e-20",
+            "-5.27450776053298+16.7753863368229j ± 6.7e-20",
+            "-5.50792958233207+1.02179453415692j ± 2.2e-20",
+            "6.05525276076592+7.45868339699927j ± 3.9e-20",
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(("S", "multiplicities", "looks", "balls"), LOOPS, ids=[row[0] for row in LOOPS])
+def test_the_work_of_loops(S: str, multiplicities: list[int], looks: int, balls: list[str]) -> None:
+    """Also the exponents and the trace -2 cos(pi Delta), where the pole is double, and the determinant 1."""
+    found: list[kovacic.LocalMonodromy] = []
+
+    def matrices() -> Any:
+        found.extend(kovacic.monodromy(S, digits=12))
+        return [point.matrix for point in found]
+
+    check_work(matrices, looks, balls)
+    assert [point.multiplicity for point in found] == multiplicities
+    for point in found:
+        assert point.consistent
+        assert point.trace is not None
+        assert point.exponents is not None
+        first, second = (complex(exponent.mid) for exponent in point.exponents)
+        assert abs(first + second - 1) < 1e-15
+        assert abs(complex(point.trace.mid) + 2 * cos(pi * (first - second).real)) < 1e-14
+        (a, _), (_, d) = point.matrix
+        assert abs(complex(a.mid + d.mid) - complex(point.trace.mid)) < 1e-11

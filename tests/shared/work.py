@@ -18,8 +18,8 @@ from kovacic import Ball
 
 
 def printed(ball: Ball) -> str:
-    """Its midpoint to 15 digits, and its radius to two."""
-    middle = f"{complex(ball.mid):.15g}" if ball.mid.imag else f"{ball.mid.real:.15g}"
+    """Its midpoint to 15 digits, where an imaginary part may be more than rounding errors, and its radius to two."""
+    middle = f"{ball.mid:.15g}" if abs(ball.mid.imag) > ball.radius else f"{ball.mid.real:.15g}"
     return f"{middle} ± {str(ball).partition('± ')[2] or 0}"
 
 
