@@ -137,9 +137,10 @@ class Levels:
         """The n of finitely many levels without parameters; None for infinitely many, and where parameters decide."""
         if any(c.free_symbols != {self.number} for c in self.conditions):
             return None
-        tried = range(MOST_TRIALS)  # more levels than that are shown by their condition
-        found = [n for n in tried if all(c.subs(self.number, n) == sympy.true for c in self.conditions)]
-        return None if tried[-1] in found else tuple(found)
+        # More levels than that are shown by their condition.
+        allowed = sympy.Intersection(sympy.Range(MOST_TRIALS), *(c.as_set() for c in self.conditions))
+        found = tuple(map(int, allowed))
+        return None if MOST_TRIALS - 1 in found else found
 
     @property
     def numbers(self) -> str:
