@@ -92,7 +92,8 @@ class ProblemAnswer:
         """The values of letters for which the general solution isn't made of this pair, with the answers there."""
         return ()
 
-    def hidden_relations(self, eq: Expr) -> tuple[Expr, ...]:
+    @property
+    def hidden_relations(self) -> tuple[Expr, ...]:
         """Relations that the solution needs but the formula doesn't show, in symbols that carry the assumptions."""
         return ()
 
@@ -101,7 +102,7 @@ class ProblemAnswer:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
         eqs = [eq.xreplace(self.known) for eq in self.equations]
         formulas = [eq.rhs for eq in eqs]
-        found = needed_for(formulas, eqs[0].lhs.args[0], self.pair_exceptions, self.hidden_relations(eqs[0]))
+        found = needed_for(formulas, eqs[0].lhs.args[0], self.pair_exceptions, self.hidden_relations)
         return Validity(
             tuple(relation.xreplace(self.own) for relation in found.real),
             tuple(e.xreplace(self.own) for e in found.exceptions),
@@ -169,9 +170,11 @@ class FirstOrderAnswer(ProblemAnswer):
 
     equation: FirstOrderEquation
 
-    def hidden_relations(self, eq: Expr) -> tuple[Expr, ...]:
+    @property
+    def hidden_relations(self) -> tuple[Expr, ...]:
         """u >= 0 for w = u^k, k = 1/(1 - n) an integer, which solves Bernoulli's equation only where w^(1/k) is u."""
-        w, n, x = eq.rhs, self.equation.power, eq.lhs.args[0]
+        function, w = self.eq.xreplace(self.known).args
+        n, x = self.equation.power, function.args[0]
         if n.is_integer or not (1 / (1 - n)).is_integer or w == 0:
             return ()
         u = sympy.cancel(w * self.equation.r / (w.diff(x) - self.equation.q * w))  # w^n = (w' - q w)/r, and u = w/w^n
@@ -283,5 +286,8 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     own = {symbol.name: symbol for symbol in value.free_symbols}
     symbols = with_assumptions({name: words for name, words in (assume or {}).items() if str(name) in own}, own)
     given = given_answer(eqs[0])
-    exceptions = [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in given.pair_exceptions]
-    return needed_for(value.xreplace(symbols), x.xreplace(symbols), exceptions)
+    exceptions, relations = (
+        [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in getattr(given, beside)]
+        for beside in ("pair_exceptions", "hidden_relations")
+    )
+    return needed_for(value.xreplace(symbols), x.xreplace(symbols), exceptions, relations)

@@ -30,10 +30,10 @@ from sympy import Add, cancel, expand, powsimp
 from kovacic.algebra.poly import Poly
 from kovacic.algebra.ratfunc import RatFunc, over_one_denominator
 from kovacic.algebra.rationals import QQ
-from kovacic.closed_form.atoms import Atoms, display
+from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
 from kovacic.closed_form.product import product
 from kovacic.equation import Equation
-from kovacic.errors import InputError
+from kovacic.errors import InputError, UnsatisfiableConditions
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import value_or_limit
 from kovacic.general_solution.first_order import (
@@ -120,6 +120,9 @@ def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
         if not m.is_negative:
             raise NotImplementedError("undecided: more than one solution may have the value 0")
         return sympy.S.Zero
+    if start is not None and m.is_integer is False and is_seen_negative(v):
+        said = f"there is no real solution with {equation.conditions[0].text}"
+        raise UnsatisfiableConditions(f"{said}: ({v})^({equation.power}) isn't real")
     (u,) = solved_linear(equation.of_power).values
     if start is None:
         return u ** (1 / m)

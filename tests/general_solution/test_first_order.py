@@ -631,3 +631,14 @@ def test_a_right_hand_side_with_endlessly_many_corners_stays_in_the_integral() -
     assert sympy.Integral(exp(s) * sympy.Abs(sin(s)), (s, 0, x)) in {
         sympy.Integral(*e.args) for e in found.atoms(sympy.Integral)
     }
+
+
+@pytest.mark.parametrize(("k", "v"), [(2, 4), (3, 8), (4, 1)])
+def test_a_root_of_the_unknown_is_at_least_zero_wherever_its_solution_is_said_to_hold(k: int, v: int) -> None:
+    """w' = w^(1 - 1/k) has the solution (v^(1/k) + x/k)^k, where v^(1/k) + x/k >= 0 only."""
+    solution = kovacic.dsolve(f"y' = y^({k - 1}/{k})", ics=f"y(0)={v}")
+    (needed,) = kovacic.validity(solution).real
+    root = sympy.root(v, k)
+    assert [needed.subs(x, -k * root + side) for side in (1, -1)] == [True, False]
+    with pytest.raises(kovacic.UnsatisfiableConditions, match=r"no real solution with y\(0\) = -1"):
+        kovacic.dsolve(f"y' = y^({k - 1}/{k}), y(0) = -1")
