@@ -115,9 +115,9 @@ def wave_changes(term: Expr, x: Expr) -> Iterator[WaveChange]:
 
     def change(f: Expr, sine: Expr, cosine: Expr, wave: Expr) -> WaveChange:
         """For int f du with the sine and the cosine in u."""
+        in_u = (f.subs({s: sine, c: cosine}) / theta.diff(x)).replace(log, lambda argument: log(cancel(argument)))
         # with a root as a factor, as the rules for roots of polynomials know it
-        in_u = cancel(f.subs({s: sine, c: cosine}) / theta.diff(x))
-        return WaveChange(together(in_u), u, wave)
+        return WaveChange(together(cancel(in_u)), u, wave)
 
     is_odd_in_s, is_odd_in_c = (cancel(R + R.xreplace({wave: -wave})) == 0 for wave in (s, c))
     if is_odd_in_s:

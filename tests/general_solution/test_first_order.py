@@ -271,7 +271,7 @@ def test_what_holds_where_a_denominator_vanishes_is_said(text: str, said: list[s
     assert kovacic.answer_to(text).notices == [f"this holds unless {what}" for what in said]
 
 
-@pytest.mark.parametrize("text", ["y' = e*y + 1", "y' = y/e + 1", "y' = e^2*x*y + x", "y' = y/(x - e) + 1"])
+@pytest.mark.parametrize("text", ["y' = e*y + 1", "y' = y/e + 1", "y' = x*e^2*y + x", "y' = y/(x - e) + 1"])
 def test_eulers_number_in_a_coefficient(text: str) -> None:
     """For SymPy e exp(e x) is exp(e x + 1); the integral mixed e with a letter for it."""
     answer = kovacic.answer_to(text)
