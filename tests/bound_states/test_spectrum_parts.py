@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 import sympy
 
+import kovacic
 from kovacic.bound_states.closed_forms import _number_below
-from kovacic.bound_states.energies import Root, exact_root, shortest_form
+from kovacic.bound_states.energies import Root, _are_contradictory, exact_root, shortest_form, tidied
 from kovacic.bound_states.levels import Levels
 from kovacic.bound_states.picture import DrawnLevel, draw_levels
+from kovacic.bound_states.signs import Signs
+from kovacic.parametric.assumptions import Assumptions
 
 x = sympy.Symbol("x")
 
@@ -55,6 +58,7 @@ def test_the_shortest_of_some_forms() -> None:
     number = sympy.Dummy("n", integer=True)
     assert str(shortest_form((-a - b) ** 2)) == "(a + b)**2"
     assert str(shortest_form(a**2 + 2 * a * b + b**2, (a + b) ** 2 * 1)) == "(a + b)**2"
+    assert str(shortest_form(k**3 - (-a - b) ** 2)) == "k**3 - (a + b)**2"
     assert str(shortest_form((3 * a + 3 * b) * k - 3 * k * b)) == "3*a*k"
     fractions = shortest_form((number**2 + 5 * number + 7) / (number + 2))
     assert sympy.cancel(fractions - number - 3 - 1 / (number + 2)) == 0
@@ -106,3 +110,51 @@ def test_the_height_of_a_picture() -> None:
     assert drawn(5.0) == pytest.approx((-0.5, 5.45))
     assert drawn(6.9) == pytest.approx((-0.5, 7.35))
     assert drawn(7.1) == pytest.approx((-0.5, 4))
+
+
+def test_conditions_that_exclude_or_imply_each_other() -> None:
+    """a > 5 and a < 2 exclude each other, and so does n + 1 < 0 alone; a > 5 implies a > 2, and 3 a - n > 1 is solved for n."""
+    signs = Signs(Assumptions(), ["a", "b"])
+    a, b, number = signs.symbols["a"], signs.symbols["b"], signs.n
+    assert _are_contradictory([a > 5, a < 2], signs)
+    assert _are_contradictory([number + 1 < 0], signs)
+    assert not _are_contradictory([a > 2, a < 5], signs)
+    assert not _are_contradictory([a > 5, b < 2], signs)
+    assert tidied([a > 5, a < 2], signs) == (sympy.false,)
+    assert tidied([a > 2, a > 5, number >= 0, 3 * a - number > 1], signs) == (a > 5, number < 3 * a - 1)
+
+
+@pytest.mark.parametrize(
+    ("V", "domain", "place", "hint"),
+    [
+        ("1/(x - 2)^2", (0, 3), "2", "(2, 3)"),
+        ("1/(cosh(x) - 2)", (0, 3), "log(sqrt(3) + 2)", '("log(sqrt(3) + 2)", 3)'),
+        ("1/sin(2*x + 1)^2", (0, 2), "-1/2 + pi/2", '("-1/2 + pi/2", 2)'),
+        ("tan(x)^2", (1, 5), "3*pi/2", '("3*pi/2", 5)'),
+    ],
+)
+def test_a_pole_inside_of_the_domain(V: str, domain: Any, place: str, hint: str) -> None:
+    with pytest.raises(kovacic.InputError) as refused:
+        kovacic.spectrum(V, domain=domain)
+    assert str(refused.value).splitlines() == [
+        f"V isn't regular at x = {place}, inside the domain",
+        f"  hint: choose a domain without a pole inside: domain={hint}",
+    ]
+
+
+def test_conditions_are_solved_for_the_number_of_a_level() -> None:
+    """n^2 + 3 n < 12 is (n + 3/2)^2 < 57/4, and s + t, s - t > 0 is s > |t|."""
+    signs = Signs(Assumptions(), ["a", "b"])
+    a, b, number = signs.symbols["a"], signs.symbols["b"], signs.n
+    half = sympy.Rational(1, 2)
+    for conditions, solved in (
+        ([12 - number**2 - 3 * number > 0], (number + 3 * half) ** 2 < 57 * half**2),
+        ([31 - 2 * number**2 - 5 * number >= 0], (number + 5 * half**2) ** 2 <= 273 * half**4),
+        ([a - number**2 - 3 * number - 2 > 0], a > (number + 1) * (number + 2)),
+        ([5 * a - 3 * number > 2], number < (5 * a - 2) / 3),
+        ([7 * a + 2 * number * b > 3], a > (3 - 2 * number * b) / 7),
+        ([a - number + b / (a - number) > 0, a - number - b / (a - number) > 0], number < a - sympy.sqrt(sympy.Abs(b))),
+    ):
+        (found,) = tidied(conditions, signs)
+        assert found.func == solved.func
+        assert sympy.expand(found.lhs - solved.lhs) == sympy.expand(found.rhs - solved.rhs) == 0

@@ -63,7 +63,7 @@ def test_the_remainders_of_all_divisions_are_counted(p: list[int], q_0: int, sta
         (([0, 0, 6], [1, 0, 0]), ([7], [0])),
     ],
     ids=str,
-    ordinary=2,
+    ordinary=11,
 )
 def test_the_last_terms_are_counted(p: GaussianParts, q: GaussianParts, bits: int, start: int) -> None:
     """The recurrence stops at terms below 2^bits, which the defect then contains, times the coefficients and n^2."""
