@@ -326,7 +326,7 @@ class Spectrum:
     def states(self, values: Mapping[Any, Any] | None = None, count: int = 10) -> tuple[BoundState, ...]:
         """The lowest levels at exact values of the parameters, at most `count` of each formula, by their energies.
 
-        Raises `InputError` where a parameter has no value, and for values that the spectrum excludes.
+        Raises `InputError` where no level is known, where a parameter has no value, and for values that the spectrum excludes.
 
         Parameters
         ----------
@@ -357,6 +357,9 @@ class Spectrum:
             # Friedrichs' condition is taken where there is one: solutions oscillate.
             hint = "no boundary condition is distinguished"
             raise InputError("both solutions are square integrable at an end", hint=hint)
+        if not any((self.complete, self.closed_forms_complete, self.formulas)):
+            hint = "give V with these values" if self.parameters else "levels=5 encloses the lowest ones"
+            raise InputError("no level is known", hint=hint)
         found: dict[Any, BoundState] = {}
         for one in self.formulas:
             for state in islice(one.states_at(at, sympy.Symbol(self.energy)), count):
