@@ -350,10 +350,18 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
     if a is None:
         return free
     if not equation.is_regular and not is_finite(h.subs(x, a)):
-        if is_finite(particular.subs(x, a)) and is_zero(v - value_or_limit(particular, x, a)):
-            return _ZERO
+        is_known = is_finite(particular.subs(x, a))
+        has_value = is_known and is_zero(v - value_or_limit(particular, x, a))
+        is_small = is_known and _known_limit(h, x, Approach(a)) == 0  # from the right
+        if has_value:
+            return free if is_small else _ZERO
+        if is_small:
+            raise _without_value(a)
         raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
-    if not equation.is_regular and all(_is_infinite(particular, x, Approach(a, side)) for side in (1, -1)):
+    ends = (_known_limit(particular, x, Approach(a, side)) for side in (1, -1))
+    if not equation.is_regular and all(
+        end == sympy.oo for end in ends
+    ):  # every solution is, since h has a finite limit
         raise _without_value(a)
     rest, there = v - value_or_limit(particular, x, a), value_or_limit(h, x, a)
     if equation.is_regular or not is_zero(there):
@@ -363,11 +371,11 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
     raise _without_value(a)
 
 
-def _is_infinite(particular: Expr, x: Expr, approach: Approach) -> bool:
-    """True if the limit is seen to be infinite; then every solution is, since h has a finite limit."""
+def _known_limit(e: Expr, x: Expr, approach: Approach) -> Expr | None:
+    """The limit, or None if it isn't found."""
     with suppress(UnknownLimit):
-        return bool(limit_at(particular, x, approach) == sympy.oo)
-    return False
+        return limit_at(e, x, approach)
+    return None
 
 
 def _without_value(a: Expr) -> UnsatisfiableConditions:
@@ -385,7 +393,10 @@ def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:
     rate = equation.q + equation.r * u ** cancel(k * (equation.power - 1))
     coefficients = (_ZERO, Integer(1), -rate, equation.p)
     try:
-        return SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading).check()
+        claim = SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading)
+        start, _ = equation.value
+        is_limit = not equation.is_regular and not is_finite(w.subs(equation.x, start))
+        return claim.check(limits={start: Approach(start)} if is_limit else {})
     except VerificationFailed:
         if equation.is_regular:
             raise

@@ -642,3 +642,13 @@ def test_a_root_of_the_unknown_is_at_least_zero_wherever_its_solution_is_said_to
     assert [needed.subs(x, -k * root + side) for side in (1, -1)] == [True, False]
     with pytest.raises(kovacic.UnsatisfiableConditions, match=r"no real solution with y\(0\) = -1"):
         kovacic.dsolve(f"y' = y^({k - 1}/{k}), y(0) = -1")
+
+
+@pytest.mark.parametrize(("a", "m", "v"), [(0, 2, 0), (1, 2, -3), (0, 3, 2)])
+def test_all_solutions_may_tend_to_one_value_at_an_irregular_point(a: int, m: int, v: int) -> None:
+    """(x - a)^m y' = y - v: all y = v + C exp(-1/((m - 1) (x - a)^(m - 1))) tend to v from the right."""
+    equation = f"(x-({a}))^{m}*y' = y - ({v})"
+    wanted = v + sympy.Symbol("C1") * sympy.exp(-1 / sympy.Integer(m - 1) / (x - a) ** (m - 1))
+    assert sympy.simplify(kovacic.dsolve(equation, ics=f"y({a})={v}").rhs - wanted) == 0
+    with pytest.raises(kovacic.UnsatisfiableConditions, match=f"no solution with this value at {a}"):
+        kovacic.dsolve(equation, ics=f"y({a})={v + 1}")
