@@ -205,7 +205,7 @@ def _print_summary(summary: Summary, seconds: float) -> None:
     from kovacic.writing.document import Paragraph, Table, format_of
 
     counts = Table(("outcome", "equations"), [[k, str(n)] for k, n in [*summary.rows(), ("all", summary.total)]])
-    lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.0f} equations a second"]
+    lines = [f"{seconds:.1f} s in all, {summary.total / max(seconds, 1e-9):.1f} equations a second"]
     if summary.slowest is not None:
         quantiles = f"median {summary.quantile(0.5):.2g} s, 90 % within {summary.quantile(0.9):.2g} s"
         slowest = f"slowest {summary.slowest.seconds:.2g} s (line {summary.slowest.number})"

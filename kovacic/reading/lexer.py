@@ -34,7 +34,7 @@ _CHARACTERS = {
     **dict.fromkeys("´‘’′ʹʼ", "'"),
     **dict.fromkeys("“”„″ʺˮ", '"'),
     **dict.fromkeys("\u00ad\u200b\u200c\u200d\u2060\u2061\u2062\u2063\ufeff", ""),
-    **dict.fromkeys("·×⋅∙", "*"),
+    **dict.fromkeys("·×⋅∙•∗", "*"),
     **dict.fromkeys("÷∕\u2044", "/"),
     "‴": "'" * 3,
     "∂": "d",

@@ -50,7 +50,7 @@ def test_answers_and_their_summary(source: Path, capsys: pytest.CaptureFixture[s
     counts = dict(re.findall(r"^\W*(none|case 1|bad input|all)\s+(\d+)\s*$", shown.err, re.MULTILINE))
     assert counts == {"none": "1", "case 1": "1", "bad input": "1", "all": "3"}
     assert re.search(r"time of an equation: median \S+ s, 90 % within \S+ s, slowest \S+ s \(line \d\)\n", shown.err)
-    assert re.search(r"^\d+\.\d s in all, \d+ equations a second$", shown.err, re.MULTILINE)
+    assert re.search(r"^\d+\.\d s in all, \d+\.\d equations a second$", shown.err, re.MULTILINE)
     assert "before" not in shown.err
     assert run(["batch", str(source), "--quiet"]) == 2
     again = capsys.readouterr()

@@ -297,6 +297,7 @@ def test_rewriting_takes_linear_time(piece: str) -> None:
         ("rhs(dsolve(y'' + 4*y = 0, y(0) = 3))", "C2*sin(2*x) + 3*cos(2*x)"),
         ("dsolve(); y'' + y = 0, y(0) = 3", "C2*sin(x) + 3*cos(x)"),
         ("y'' + y = 0, y(0) = 1, (dy/dx)(0) = 2", "2*sin(x) + cos(x)"),
+        ("y'' + 2•y∗2 = 0, y(0) = 1, y'(0) = 0", "cos(2*x)"),
         ("x'' + x = 0, [x'](0) = 2, x(t=0) = 1", "2*sin(t) + cos(t)"),
         (r"y'' + y = 0, \left(\frac{dy}{dx}\right)(0) = 2, y|_{x=\pi/2} = 2", "C1*cos(x) + 2*sin(x)"),
         (r"y'' + y = 0, \left.\frac{dy}{dx}\right|_{x=0} = 2, y(0) = 1", "2*sin(x) + cos(x)"),
