@@ -176,6 +176,11 @@ class EquationReader(RationalReader):
         if head.rstrip(PRIME) == self.unknown:
             return self._call_of_unknown(head, arguments, site)
         if head in DERIVATIVES:
+            letter = self._letter(arguments[0])
+            if letter:
+                said = f"{site.text()} is a derivative of something else than {self.unknown}"
+                hint = f"if {letter} is a number, declare it:"
+                raise NotLinear(said, hint=f"{hint} parameters=[{letter!r}]", shell=f"{hint} --names {letter}")
             return self._derived(arguments[0], differentiations(arguments, self))
         if head in self.names:
             hint = f"for a product write {head}*({site.inside()})"
@@ -215,6 +220,12 @@ class EquationReader(RationalReader):
 
     def is_variable(self, value: Any) -> bool:
         return is_plain(value) and bool(self.arithmetic.closed(value) == self.arithmetic.closed(VARIABLE))
+
+    def _letter(self, value: Any) -> str | None:
+        """The undeclared letter that the value is."""
+        letters = [name for name in self.constants.parameters if name not in self.source.declared]
+        same = (name for name in letters if self.arithmetic.closed(value) == self.constants.parameter(name))
+        return next(same, None) if is_plain(value) else None
 
     def _derived(self, value: Any, order: int) -> Any:
         for _ in range(order):
