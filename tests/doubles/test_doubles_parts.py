@@ -263,8 +263,16 @@ def test_points_of_a_curve_accumulate_at_singular_points() -> None:
     assert _beside_singular_points(before, -0.5, 1.0) == [-0.25, 0.125]  # type: ignore[arg-type]
 
 
-def test_a_table_far_out_on_the_left() -> None:
-    """Centres are doubles there, too: sin(x + 10^10)."""
-    sine = kovacic.tabulate("-1", -(10**10) - 2, -(10**10), x0=-(10**10), y0=0, dy0=1)
-    for shift in (-1.75, -1.0, -0.25):
-        assert sine(shift - 10.0**10) == pytest.approx(math.sin(shift), rel=1e-15)
+def test_a_table_where_units_in_the_last_place_change() -> None:
+    """Centres are doubles on both sides of -2^33: sin(x + 2^33)."""
+    sine = kovacic.tabulate("-1", -(2**33) - 2, 1 - 2**33, x0=-(2**33), y0=0, dy0=1)
+    for shift in (-1.75, -1.0, -0.25, 0.75):
+        assert sine(shift - 2.0**33) == pytest.approx(math.sin(shift), rel=1e-15)
+
+
+def test_a_table_with_the_right_hand_side_1() -> None:
+    start = {"x0": 0, "y0": "3/2", "dy0": "-1/3"}
+    equation = "y'' + cos(x)*y = 1"
+    table = kovacic.tabulate(equation, 0, 2, **start)
+    for x in (0.5, 1.75):
+        assert table(x) == pytest.approx(float(kovacic.evaluate(equation, x, **start)), rel=1e-15)
