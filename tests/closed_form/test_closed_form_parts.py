@@ -36,6 +36,7 @@ from sympy.abc import t, x
 import kovacic
 from kovacic import Structure
 from kovacic.closed_form.curve import completed, integrate_on_curve, unit
+from kovacic.closed_form.cuts import cut_of
 from kovacic.closed_form.form import ClosedForm
 from kovacic.closed_form.integrals import curve_integral, elliptic, logarithms
 from kovacic.closed_form.jets import parameter_value
@@ -109,6 +110,36 @@ def test_jets_have_the_values_of_another_library_and_their_differences(text: str
         modules = [{**primes, **spherical, **incomplete, **of_laguerre}, "mpmath"]
         other = sympy.lambdify((x, *numbers), expression, modules)(_of_acb(point), *numbers.values())
         assert abs(other - _of_acb(value)) < 1e-24 * abs(other)
+
+
+@pytest.mark.parametrize(
+    ("text", "cut"),
+    [
+        ("log(2*x-3)", "2*x - 3"),
+        ("Ei(2*x-3)", "2*x - 3"),
+        ("Ci(2*x-3)", "2*x - 3"),
+        ("expint(3,2*x-3)", "2*x - 3"),
+        ("uppergamma(a,2*x-3)", "2*x - 3"),
+        ("lowergamma(a,2*x-3)", "2*x - 3"),
+        ("atan(2*x-3)", "(2*x - 3)**2 + 1"),
+        ("asinh(2*x-3)", "(2*x - 3)**2 + 1"),
+        ("acot(2*x-3)", "1 + (2*x - 3)**(-2)"),
+        ("asin(2*x-3)", "1 - (2*x - 3)**2"),
+        ("acos(2*x-3)", "1 - (2*x - 3)**2"),
+        ("atanh(2*x-3)", "1 - (2*x - 3)**2"),
+        ("acosh(2*x-3)", "1 - (2*x - 3)**2"),
+        ("polylog(3,2*x-3)", "4 - 2*x"),
+        ("Abs(2*x-3)", "(2*x - 3)**2"),
+        ("sign(2*x-3)", "(2*x - 3)**2"),
+        ("Heaviside(2*x-3)", "(2*x - 3)**2"),
+        ("sqrt(2*x-3)", "2*x - 3"),
+        ("(2*x-3)**3", "None"),
+        ("exp(x)", "None"),
+        ("sin(2*x-3)", "None"),
+    ],
+)
+def test_cuts_are_where_an_expression_is_negative(text: str, cut: str) -> None:
+    assert str(cut_of(sympy.sympify(text, {"x": sympy.Symbol("x", real=True)}, rational=True))) == cut
 
 
 @pytest.mark.long

@@ -16,7 +16,13 @@ from sympy import atan, cos, exp, log, sin, sqrt
 import kovacic
 from kovacic.closed_form.jets import jet
 from kovacic.general_solution import antiderivatives
-from kovacic.general_solution.integrands import UnknownIntegral, incomplete_gamma, prepared_integrand
+from kovacic.general_solution.integrands import (
+    UnknownIntegral,
+    incomplete_gamma,
+    power_beside_wave,
+    prepared_integrand,
+)
+from kovacic.general_solution.waves import beside_waves, by_coefficients
 
 x = sympy.Symbol("x")
 POINTS = (acb(fmpq(3, 10), fmpq(1, 7)), acb(fmpq(6, 5)), acb(fmpq(17, 10), fmpq(-1, 9)))
@@ -56,6 +62,47 @@ def test_each_rule_alone_finds_antiderivatives(claim: str, monkeypatch: pytest.M
                 value, wanted = jet(found, x, point)[1], jet(term, x, point)[0]
                 assert value.is_finite(), (claim, term, found)
                 assert value.overlaps(wanted), (claim, term, found)
+
+
+#: By what is special in them: the exponents 0, 1/2, an integer, others, of powers of lines with letters.
+FORMULAS = [
+    (incomplete_gamma, "7*(2*x + 3)**a", "7*(2*x + 3)**(a + 1)/(2*(a + 1))"),
+    (incomplete_gamma, "5*x**a*exp(-3*x)", "-5*x**(a + 1)*(3*x)**(-a - 1)*uppergamma(a + 1, 3*x)"),
+    (incomplete_gamma, "5*x**a*exp(3*x)", "5*x**(a + 1)*hyper((a + 1,), (a + 2,), 3*x)/(a + 1)"),
+    (incomplete_gamma, "x**a*exp(-2*x**3 + 5)", None),
+    (incomplete_gamma, "7*x**(4/3)*exp(2*x**5)", None),
+    (incomplete_gamma, "7*x**(4/3)*exp(-2*x**5)", None),
+    (incomplete_gamma, "sqrt(x)*exp(-2*x**3)", None),
+    (incomplete_gamma, "sqrt(x)*exp(2*x**3)", None),
+    (incomplete_gamma, "(3*x + 2)**4*exp(x)", None),
+    (incomplete_gamma, "(3*x + 2)**(1/3)*exp(5 - 2*x)", None),
+    (power_beside_wave, "5*x**a*cos(3*x)", None),
+    (power_beside_wave, "5*x**a*sin(3*x)", None),
+    (power_beside_wave, "x**(2/3)*sin(2*x**3 + 1)", None),
+    (power_beside_wave, "x**(2/3)*cos(2*x**3 + 1)", None),
+    (power_beside_wave, "7*x**(1/5)*cos(x**b/2 - 3)", None),
+    (beside_waves, "x**3*sin(2*x + 3)", None),
+    (beside_waves, "cos(2*x + 3)/(5*x - 2)**3", None),
+    (beside_waves, "sin(3*x)/(x - 2) + x*cos(5*x)", None),
+    (beside_waves, "x**4*cos(3*x**2 + 1)", None),
+    (beside_waves, "sin(3*x**2 - 6*x + 5)", None),
+    (beside_waves, "(x - 1)**2*cos(3*x**2 - 6*x + 5)", None),
+    (beside_waves, "cos(2*x**2)/x**3", None),
+    (beside_waves, "sin(2*x**2)/x**2 + 3/(x + 5)**2", None),
+    (by_coefficients, "x**2*exp(3*x)*sin(2*x) + 5*x", None),
+]
+
+
+@pytest.mark.parametrize(
+    ("rule", "text", "printed"), FORMULAS, ids=lambda value: value if isinstance(value, str) else ""
+)
+def test_formulas_for_integrals(rule: Any, text: str, printed: str | None) -> None:
+    term = sympy.sympify(text, {"x": x}, rational=True)
+    found = rule(term, x)
+    assert printed is None or str(found) == printed
+    for point in POINTS:
+        value, wanted = jet(found, x, point)[1], jet(term, x, point)[0]
+        assert abs(value - wanted) < 1e-9 * abs(wanted), found
 
 
 def test_functions_of_a_logarithm_beside_a_square_in_an_exponent() -> None:

@@ -72,6 +72,26 @@ def test_impulses_of_higher_order() -> None:
     agree((found - DiracDelta(x - 1)).subs(Heaviside(x - 1), 1), u, [sympy.Rational(5, 4), 3])
 
 
+def test_impulses_of_higher_order_beside_variable_coefficients() -> None:
+    """L y for y = 3 delta' - 5 delta + H u at 2, L y = y'' - 2 y'/x + 2 y/x^2 and L u = 0, gives y back.
+
+    g delta^(n) is the sum of (-1)^k (n over k) g^(k)(2) delta^(n - k).
+    """
+    B, C, u = -2 / x, 2 / x**2, 4 * x - 7 * x**2
+
+    def times(g: Any, n: int) -> Any:
+        return sum(
+            (-1) ** k * sympy.binomial(n, k) * g.diff(x, k).subs(x, 2) * DiracDelta(x - 2, n - k) for k in range(n + 1)
+        )
+
+    f = sum(c * (DiracDelta(x - 2, n + 2) + times(B, n + 1) + times(C, n)) for c, n in ((3, 1), (-5, 0)))
+    f += u.subs(x, 2) * DiracDelta(x - 2, 1) + (u.diff(x) + B * u).subs(x, 2) * DiracDelta(x - 2)
+    equation = y(x).diff(x, 2) + B * y(x).diff(x) + C * y(x) - f
+    found = kovacic.dsolve(equation, ics={y(1): 0, y(x).diff(x).subs(x, 1): 0}).rhs
+    expected = 3 * DiracDelta(x - 2, 1) - 5 * DiracDelta(x - 2) + Heaviside(x - 2) * u
+    assert sympy.expand(found - expected) == 0
+
+
 @parametrize(
     "f",
     [

@@ -11,6 +11,77 @@ from build import parametrize, run
 from sympy.abc import a, b, c, k, m, v, w, x  # the names in texts
 
 import kovacic
+from kovacic.general_solution.validity import needs_of
+
+
+#: Powers and functions, with an integer n, and what they need to be real and finite.
+NEEDS = [
+    ("(2*x-3)**(-2)", "Ne(2*x - 3, 0)"),
+    ("(2*x-3)**3", ""),
+    ("sqrt(2*x-3)", "2*x - 3 >= 0"),
+    ("(2*x-3)**(-5/2)", "2*x - 3 > 0"),
+    ("(2*x-3)**a", "2*x - 3 > 0"),
+    ("(x+I)**(-1/3)", "Ne(x + I, 0)"),
+    ("sqrt(x+I)", ""),
+    ("log(2*x-3)", "2*x - 3 > 0"),
+    ("log(x+I)", "Ne(x + I, 0)"),
+    ("asin(2*x-3)", "1 - (2*x - 3)**2 >= 0"),
+    ("acos(x/4)", "1 - x**2/16 >= 0"),
+    ("acosh(2*x-3)", "2*x - 4 >= 0"),
+    ("tan(2*x-3)", "Ne(cos(2*x - 3), 0)"),
+    ("sec(2*x-3)", "Ne(cos(2*x - 3), 0)"),
+    ("cot(2*x-3)", "Ne(sin(2*x - 3), 0)"),
+    ("csc(2*x-3)", "Ne(sin(2*x - 3), 0)"),
+    ("coth(2*x-3)", "Ne(2*x - 3, 0)"),
+    ("csch(x+I)", "Ne(x + I, 0)"),
+    ("Ei(2*x-3)", "Ne(2*x - 3, 0)"),
+    ("Ci(2*x-3)", "2*x - 3 > 0"),
+    ("expint(a,2*x-3)", "2*x - 3 > 0"),
+    ("uppergamma(a,2*x-3)", "2*x - 3 > 0"),
+    ("lowergamma(a,2*x-3)", "2*x - 3 > 0"),
+    ("polylog(a,2*x-3)", "4 - 2*x > 0"),
+    ("atanh(2*x-3)", "1 - (2*x - 3)**2 > 0"),
+    ("bessely(n,2*x-3)", "2*x - 3 > 0"),
+    ("besselk(a,2*x-3)", "2*x - 3 > 0"),
+    ("besselj(n,2*x-3)", ""),
+    ("besselj(a,2*x-3)", "2*x - 3 > 0"),
+    ("besseli(a,2*x-3)", "2*x - 3 > 0"),
+    ("jn(n,2*x-3)", ""),
+    ("jn(a,2*x-3)", "2*x - 3 > 0"),
+    ("yn(n,2*x-3)", "Ne(2*x - 3, 0)"),
+    ("yn(a,2*x-3)", "2*x - 3 > 0"),
+    ("elliptic_k(2*x-3)", "4 - 2*x > 0"),
+    ("elliptic_e(2*x-3)", "4 - 2*x > 0"),
+    ("elliptic_f(x,2/7)", "1 - 2*sin(x)**2/7 > 0"),
+    ("elliptic_e(x,2/7)", "1 - 2*sin(x)**2/7 > 0"),
+    ("elliptic_pi(3/7,x,2/7)", "1 - 2*sin(x)**2/7 > 0; 1 - 3*sin(x)**2/7 > 0"),
+    ("legendre(n,2*x-3)", ""),
+    ("legendre(a,2*x-3)", "2*x - 2 > 0"),
+    ("gegenbauer(a,b,2*x-3)", "2*x - 2 > 0"),
+    ("jacobi(a,b,3/7,2*x-3)", "2*x - 2 > 0"),
+    ("chebyshevt(a,2*x-3)", "2*x - 2 > 0"),
+    ("chebyshevu(a,2*x-3)", "2*x - 2 > 0"),
+    ("assoc_legendre(n,2,x)", ""),
+    ("assoc_legendre(n,3,x)", "1 - x**2 > 0"),
+    ("assoc_legendre(a,2,x)", "1 - x**2 > 0"),
+    ("hyper((a,b),(3,),2*x-3)", "4 - 2*x > 0"),
+    ("hyper((-2,b),(3,),2*x-3)", ""),
+    ("hyper((a,),(b,),2*x-3)", "Ne(1/gamma(b), 0)"),
+    ("hyper((a,b),(),2*x-3)", "3 - 2*x > 0"),
+    ("hyper((a,1/3),(b,),2*x-3)", "4 - 2*x > 0; Ne(1/gamma(b), 0)"),
+    ("hyper((a,-2),(),2*x-3)", ""),
+    ("sin(x)/log(x)+tan(x)", "Ne(cos(x), 0); Ne(log(x), 0); x > 0"),
+    ("exp(-1/x)", "Ne(x, 0)"),
+    ("Integral(1/log(a),(a,2,x))", "Ne(log(x), 0); x > 0"),
+    ("Integral(log(x),x)", "x > 0"),
+    ("log(x)*a/(3*x**2-6)", "Ne(3*x**2 - 6, 0); x > 0"),
+]
+
+
+@pytest.mark.parametrize(("text", "needs"), NEEDS)
+def test_needs_of_powers_and_functions(text: str, needs: str) -> None:
+    e = sympy.sympify(text, {"n": sympy.Symbol("n", integer=True)}, rational=True)
+    assert "; ".join(sorted(str(need) for need in needs_of(e) if need != sympy.true)) == needs
 
 
 @parametrize(
