@@ -83,6 +83,16 @@ hyper((2/5,3/4),(43/20,),u/9+1) hyper((a,2*a),(b,),u/4) u*pi+E*EulerGamma+Catala
 """
 
 
+@pytest.mark.parametrize("place", [Fraction(2, 5), Fraction(-2, 5), Fraction(7, 3), Fraction(-7, 3)])
+def test_jets_of_functions_with_a_sign(place: Fraction) -> None:
+    """|2 x|, the sign of 2 x and H(2 x) are 2 x, 1 and 1, or -2 x, -1 and 0."""
+    point, sign = acb(flint.fmpq(place.numerator, place.denominator)), 1 if place > 0 else -1
+    expected = {sympy.Abs: (2 * sign * point, 2 * sign), sympy.sign: (sign, 0), sympy.Heaviside: ((sign + 1) // 2, 0)}
+    for function, (value, slope) in expected.items():
+        found = jet(function(2 * x, evaluate=False), x, point)
+        assert [abs(a - b) < 1e-12 for a, b in zip(found, (value, slope, 0), strict=True)] == [True] * 3
+
+
 def _of_acb(value: acb) -> Any:
     return mpmath.mpc(*(mpmath.mpf(part.mid().str(40, radius=False)) for part in (value.real, value.imag)))
 

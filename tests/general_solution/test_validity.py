@@ -13,7 +13,6 @@ from sympy.abc import a, b, c, k, m, v, w, x  # the names in texts
 import kovacic
 from kovacic.general_solution.validity import needs_of
 
-
 #: Powers and functions, with an integer n, and what they need to be real and finite.
 NEEDS = [
     ("(2*x-3)**(-2)", "Ne(2*x - 3, 0)"),

@@ -746,6 +746,13 @@ def test_both_solutions_may_be_the_same_polynomial(equation: Any) -> None:
     assert not equation.form(z, z * 0 + 1, 0).independent
 
 
+def test_the_solution_with_the_smaller_exponent_alone_may_be_a_polynomial() -> None:
+    """1/2 + mu - kappa = 1 and 1/2 - mu - kappa = -1."""
+    z = X.num.rep
+    equation = Whittaker(*of(Fraction(1, 4), Fraction(1, 2), Fraction(3, 4)))
+    assert equation.form(z, z * 0 + 1, 0).independent
+
+
 def transformed(S: str, *transform: str) -> tuple[str, tuple[Any, Any, Any]]:
     """The equation of a v + b v' for v'' = S v, and its coefficients: three vectors in v and v' are dependent."""
     T, a, b = (sympy.sympify(text.replace("^", "**")) for text in (S, *transform))
