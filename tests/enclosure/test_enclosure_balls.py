@@ -7,7 +7,7 @@ import random
 import re
 from collections.abc import Callable
 from fractions import Fraction
-from math import cos, cosh, exp, sin, sinh
+from math import cos, cosh, exp, nextafter, sin, sinh
 from typing import Any
 
 import flint
@@ -112,3 +112,34 @@ def test_a_real_ball_has_complex_values_where_the_coefficients_are_complex() -> 
         found = evaluate("y'' = 200*I*y", arb(0, 0.125), x0=0, y0=3, dy0=0)
     assert not found.real
     assert found.contains(3 * cmath.cosh((10 + 10j) / 8))
+
+
+def test_edges_of_balls() -> None:
+    """Doubles on the outer side; discs that touch overlap, and one contains another that touches it from inside."""
+    half = kovacic.Ball((1, 0), rad=(1, -1))
+    assert (half.lower, half.upper) == (0.5, 1.5)
+    tiny = kovacic.Ball((-3, -2), rad=(1, -70))
+    assert (tiny.lower, tiny.upper) == (nextafter(-0.75, -1), nextafter(-0.75, 0))
+    disc = kovacic.Ball((3, 0), (4, 0), rad=(5, 0), real=False)
+    assert disc.contains(0)
+    assert not disc.contains(kovacic.Ball((0, 0), rad=(1, -9)))
+    assert disc.contains(kovacic.Ball((6, 0), (8, 0), real=False))
+    assert not disc.contains(kovacic.Ball((6, 0), (9, 0), real=False))
+    assert half.overlaps(kovacic.Ball((2, 0), rad=(1, -1)))
+    assert not half.overlaps(kovacic.Ball((33, -4), rad=(1, -1)))
+    assert kovacic.Ball((0, 0), rad=(1, 0)).contains(kovacic.Ball((1, -1), rad=(1, -1)))
+    assert not kovacic.Ball((0, 0), rad=(1, 0)).contains(kovacic.Ball((5, -3), rad=(1, -1)))
+    with pytest.raises(TypeError, match="complex numbers have no order"):
+        _ = disc.upper
+    assert str(kovacic.Ball((-7, -3))) == "-0.875" + "0" * 37
+    assert kovacic.Ball((7, -2), rad=(1, -8)).to_dict() == {"re": "1.75000", "im": "0", "radius": "0.0040"}
+
+
+def test_routes_are_named() -> None:
+    def route(equation: str, x: int, **options: Any) -> str:
+        return str(kovacic.evaluate(equation, x, x0=0, **options).route)
+
+    growing = {"y0": 1, "dy0": -1, "digits": 15, "method": "taylor"}
+    assert route("1", 2, **growing) == "Taylor's method, 73 bits, 1 run"
+    assert route("1", 50, **growing) == "Taylor's method, 201 bits, 2 runs"
+    assert route("x^2 + 5", 2, y0=1, dy0=2, digits=30, method="closed form") == "a closed form, 123 bits, 1 run"
