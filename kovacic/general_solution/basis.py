@@ -215,6 +215,9 @@ def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr | None]:
             sympy.expand(W.subs(x, value))
         )  # of the quotient SymPy would expand the denominator
         yield finite_value(powsimp(sympy.Add(*(term / below for term in terms))), u, S.Zero)
+    if manageable(W):  # in x itself, where the exponents of powers of u have letters
+        joined = powsimp(sympy.expand(W / w))
+        yield from (finite_value(joined, x, point) for point in _WRONSKIAN_POINTS)
 
 
 def _has_functions(c: Expr) -> bool:
