@@ -337,24 +337,23 @@ def _in_one_power(P: Any, Q: Any, source: Source) -> Any:
 
 
 def _of_waves(P: Any, Q: Any, waves: Sequence[Any], source: Source) -> Any:
-    """In u = x^m, where the arguments of all waves contain x in x^m alone, and then in exp(c u)."""
+    """In u = x^m, where the arguments of all waves contain x in x^m alone, and then in exp(c u); x names u, too."""
     x = sympy.Symbol(source.variable)
     arguments = sympy.Tuple(*(wave.args[-1] for wave in waves))
     powers = {p for p in arguments.atoms(sympy.Pow) if p.base == x}
     if len(powers) != 1 or arguments.subs(dict.fromkeys(powers, 0)).has(x):
         return None
     m = powers.pop().exp
-    u = sympy.Symbol("v") if x.name == "u" else sympy.Symbol("u")
     T = sympy.Dummy("T", positive=True)
     P, Q = (sympy.powdenest(part.subs(x, T ** (1 / m)), force=True) for part in (P, Q))
     first = sympy.cancel((m**2 + m * P) / (m**2 * T))
     zeroth = sympy.cancel(Q / (m**2 * T**2))
-    monic = [sympy.S.One, first.xreplace({T: u}), zeroth.xreplace({T: u}), sympy.S.Zero]
-    renamed = source._replace(variable=u.name, unknown=source.unknown or UNKNOWN)
+    monic = [sympy.S.One, first.xreplace({T: x}), zeroth.xreplace({T: x}), sympy.S.Zero]
+    renamed = source._replace(unknown=source.unknown or UNKNOWN)
     found: Any = in_exponentials(source_of_parts(monic, renamed))
     if found is None or found.equation.change is None:
         return None
-    return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(u, x**m))
+    return _with_change(replace(found, notices=found.notices[1:]), source, function_of_x(found.equation).subs(x, x**m))
 
 
 def _with_change(read: Any, source: Source, value: Any) -> Any:

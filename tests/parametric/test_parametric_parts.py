@@ -74,6 +74,7 @@ F = Fraction
 
 def test_schwarz_table_has_the_parities() -> None:
     assert kimura_structure((F(2, 3), F(1, 3), F(1, 3))) is Structure.TETRAHEDRAL
+    assert kimura_structure((F(2, 3), F(5, 3), F(1, 3))) is Structure.TETRAHEDRAL
     assert kimura_structure((F(2, 3) + 1, F(1, 3), F(1, 3))) is Structure.REDUCIBLE
     assert kimura_structure((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
     assert kimura_structure((F(2, 5), F(2, 5), F(7, 5))) is None
@@ -275,7 +276,12 @@ def test_roots_are_sums_of_square_roots_only_for_even_polynomials() -> None:
 
 @pytest.mark.parametrize(
     ("residues", "modulus", "expected"),
-    [([1, 3], 4, ODD), ([F(1, 2), F(3, 2)], 2, Classes.of([F(1, 2)], 1)), ([0, 1, 2], 6, Classes((0, 1, 2), F(6)))],
+    [
+        ([1, 3], 4, ODD),
+        ([2, 4], 4, EVEN),
+        ([F(1, 2), F(3, 2)], 2, Classes.of([F(1, 2)], 1)),
+        ([0, 1, 2], 6, Classes((0, 1, 2), F(6))),
+    ],
 )
 def test_classes_have_the_least_modulus(residues: list[F], modulus: int, expected: Classes) -> None:
     assert Classes.of(residues, modulus) == expected

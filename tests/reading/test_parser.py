@@ -799,10 +799,23 @@ def test_the_number_of_terms_in_the_parameters_is_foreseen(text: str) -> None:
 
 
 def test_what_is_foreseen_isnt_less_than_what_there_is_nor_much_more() -> None:
-    for text, terms in (("(x+a+b)^30", 496), ("(x+a)^12*(x-b)^12", 169), ("(x^2+a)^40/(x+b)", 41)):
+    for text, terms in (
+        ("(x+a+b)^30", 496),
+        ("(x+a)^12*(x-b)^12", 169),
+        ("(x^2+a)^40/(x+b)", 41),
+        ("(x^2+x+a+1)^10", 231),
+    ):
         assert read_input(text, limits=Limits(terms=terms)).S.num.extent()[0] <= terms
         with pytest.raises(LimitExceeded, match="terms"):
-            read_input(text, limits=Limits(terms=terms // 3))
+            read_input(text, limits=Limits(terms=terms - 1))
+
+
+def test_the_bits_of_all_coefficients_together_are_limited() -> None:
+    """(x + 2)^n is foreseen to have n + 1 coefficients of up to 2 n bits; a hundred times the limit of one is allowed."""
+    assert read_input("(x+2)^99", limits=Limits(bits=198)).S.num.degree == 99
+    said = "up to 101 coefficients of up to 200 bits, above the limit of 20000 bits for all together"
+    with pytest.raises(LimitExceeded, match=said):
+        read_input("(x+2)^100", limits=Limits(bits=200))
 
 
 @pytest.mark.parametrize("text", ["y'' + y = e^ax", "y'' + y = e^-ax", "y'' - 2^ax*y = 0", "x^ax"])
