@@ -75,12 +75,12 @@ def closed_form(answer: Answer) -> ClosedForm | None:
 @limited
 def in_letters(answer: Answer) -> ClosedForm:
     """The closed form in the user's variable, and in the letters of S for constants."""
+    from kovacic.reading.change_of_variable import real_values
     from kovacic.special.choice import chosen_form
 
-    is_changed = answer.change is not None
-    found = chosen_form(
-        answer.S, answer.decision, answer.gauge, answer.variable, Budget(answer.limits), is_changed=is_changed
-    )
+    places = () if answer.equation is None else real_values(answer.equation)
+    budget = Budget(answer.limits)
+    found = chosen_form(answer.S, answer.decision, answer.gauge, answer.variable, budget, places=places)
     return _in_given_variable(answer, found)  # type: ignore[no-any-return]
 
 

@@ -137,15 +137,18 @@ def _is_below_zero(u: Expr, x: Expr, point: Expr, own: Own) -> bool:
     return bool(own(u.subs(x, point)).is_negative)
 
 
-def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify) -> Expr:
+def common_place(x: Expr, *parts: Mapping[Expr, Expr], own: Own = sympy.sympify, among: Sequence[Expr] = ()) -> Expr:
     """The first of several points at which the fewest `arguments_with_cuts` lie on cuts; those of the first part count first.
 
-    The usual points come first, then those between zeros of arguments, as for sqrt(x - 3) and sqrt(4 - x).
+    The points are those `among` which it has to be, or the usual ones and then those between zeros of arguments, as for
+    sqrt(x - 3) and sqrt(4 - x).
     """
     shared = [Counter(arguments.values()) for arguments in parts]
 
     def points() -> Iterator[Expr]:
-        yield from _TRIED_PLACES
+        yield from among or _TRIED_PLACES
+        if among:
+            return
         linear = (u for counts in shared for u in counts if sympy.diff(u, x).is_Rational)
         zeros = sorted({-u.subs(x, 0) / sympy.diff(u, x) for u in linear if u.subs(x, 0).is_Rational})
         yield from ((a + b) / 2 for a, b in pairwise(zeros))

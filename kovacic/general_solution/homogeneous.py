@@ -54,9 +54,8 @@ def find_basis(question: Question, budget: Budget, *, special: bool = False) -> 
         solution = solve(question.equation, assume=known.to_dict(), limits=limits)
     if solution.case is not None and not special:
         is_changed = question.equation.change is not None
-        form = chosen_form(
-            solution.S, solution.decision, solution.gauge, solution.variable, budget, is_changed=is_changed
-        )
+        places = real_values(question.equation)
+        form = chosen_form(solution.S, solution.decision, solution.gauge, solution.variable, budget, places=places)
         # with what is assumed of letters
         below = [question.own(b) for f in sympy.Tuple(*form).atoms(sympy.hyper) for b in f.bq]
         has_poles = any(b.is_integer and not b.is_positive for b in below)

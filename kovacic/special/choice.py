@@ -15,13 +15,14 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 from sys import maxsize
 from typing import Any
 
 from flint import acb, arb, ctx, fmpq
-from sympy import Heaviside, Integral, Symbol, Tuple, sympify
+from sympy import Heaviside, Integral, Rational, Symbol, Tuple, sympify
 
 from kovacic.algebra.embedding import complex_zeros
 from kovacic.algebra.precision import working_digits
@@ -108,13 +109,13 @@ def chosen_form(
     variable: str = "x",
     budget: Budget | None = None,
     *,
-    is_changed: bool = False,
+    places: Sequence[Fraction] = (),
 ) -> ClosedForm:
     """Two independent solutions of the equation that was given, in the chosen form, checked.
 
     `gauge` is the logarithmic derivative of the factor between them and those of y'' = S y, -b/(2a) for the equation
     a z'' + b z' + c z = 0, and 0 for the normal form.  Where S is real and has real solutions of a known form, these are
-    returned: real at the `common_place`, unless the variable `is_changed`, a function of the user's.
+    returned: real at the `common_place`, one of the `places` if the variable is a function that has only some values.
 
     Raises `ValueError` if the equation has no Liouvillian solution or is undecided, and `VerificationFailed` if a solution
     doesn't pass its check, which is a defect of this package; `LimitExceeded` within `Budget.watched`.
@@ -128,15 +129,15 @@ def chosen_form(
     if decision.case is None:
         raise ValueError(decision.undecided or "there is no Liouvillian solution")
     chosen = _Equation(S, decision, gauge, variable, budget or Budget()).chosen()
-    return chosen if is_changed or decision.series is not None else _real(chosen, S)
+    return chosen if decision.series is not None else _real(chosen, S, places)
 
 
-def _real(form: ClosedForm, S: RatFunc) -> ClosedForm:
+def _real(form: ClosedForm, S: RatFunc, places: Sequence[Fraction]) -> ClosedForm:
     """The form, or one that is real at the place at which the fewest of its arguments have to be turned."""
     if form.place is not None:
         return form
     pair, x = (form.y1, form.y2), form.variable
-    place = common_place(x, arguments_with_cuts(Tuple(*pair)))
+    place = common_place(x, arguments_with_cuts(Tuple(*pair)), among=[*map(Rational, places)])
     y1, y2 = real_at(pair, x, S, form.gauge, place, anew=partial(pair_at, form, place, sympify))
     return form if (y1, y2) == pair else replace(form, y1=y1, y2=y2, place=place)
 

@@ -446,3 +446,16 @@ def test_poles_of_several_functions_are_said_once() -> None:
 )
 def test_what_real_letters_can_violate_is_said(text: str, needed: str) -> None:
     assert str(kovacic.answer_to(text).validity) == needed
+
+
+@pytest.mark.parametrize("where", ["sin(x)", "cos(x)", "exp(-x)", "tanh(x)"])
+@pytest.mark.parametrize("k", ["1/3", "sqrt(2)"])
+def test_an_answer_in_another_function_is_real_somewhere(where: str, k: str) -> None:
+    """((1 - t)/(1 + t))^k and its inverse for t = t(x): (D^2 - (t''/t' - 2 t t'/(t^2 - 1)) D - (2 k t'/(t^2 - 1))^2) y = 0."""
+    x = sympy.Symbol("x", real=True)
+    t = sympy.sympify(where, {"x": x})
+    slope = t.diff(x)
+    p, q = slope.diff(x) / slope - 2 * t * slope / (t**2 - 1), (2 * sympy.sympify(k) * slope / (t**2 - 1)) ** 2
+    found = kovacic.answer_to(f"y'' - ({sympy.simplify(p)})*y' - ({sympy.simplify(q)})*y = 0")
+    demands = [r.subs(r.free_symbols.pop(), sympy.Rational(9, 10)) for r in found.validity.real]
+    assert sympy.And(*demands) == sympy.true
