@@ -213,6 +213,7 @@ def test_command_follows_every_start(run, arguments):
     motion = simulated(run, *arguments)
     assert max(motion["difference"].values()) < 1e-11
     assert motion["energy_drift"] < 1e-11
+    assert (motion["least_reaction"] is None) == ("--potential" in arguments)
 
 
 @pytest.mark.long

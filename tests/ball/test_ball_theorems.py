@@ -395,3 +395,12 @@ def test_closed_form_agrees_with_an_ode_solver():
         reference = mpmath.odefun(slope, start, list(values(start, 2, 3)), tol=mpmath.mpf(10) ** -14)(end)
         for value, expected in zip(values(end, 2, 3), reference, strict=True):
             assert abs(value - expected) < 1e-12
+
+
+def test_lengths_may_be_in_any_unit():
+    """D, l and the weight are of the fourth power of a length, and (11) has no unit."""
+    small = RollingBall(m=3, R=2, a="1/5", A1=1, A3="4/3").on_sphere(5)
+    large = RollingBall(m=3, R=6, a="3/5", A1=9, A3=12).on_sphere(15)
+    assert (large.leading, large.weight) == (81 * small.leading, 81 * small.weight)
+    assert sp.expand(large.D - 81 * small.D) == 0
+    assert (large.ratio, large.S) == (small.ratio, small.S)

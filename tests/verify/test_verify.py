@@ -579,6 +579,7 @@ def shows_no_omega(kernel: Inspector, largest: int, prime: int) -> bool:
         ("1/x^4", {"x": True, "infinity": False}),  # infinity is an ordinary point
         ("2/x^2 + 1", {"x": False, "infinity": True}),  # Delta = 3 without a logarithm
         ("1/x + 1", {"x": True, "infinity": True}),  # a logarithm
+        ("2/x^2 + 1/x + x^2", {"x": True, "infinity": True}),  # 3 is no multiple of 4, but one of 1
         ("(16*x - 3)/(16*x^2)", {"x": True, "infinity": False}),
         ("1/x^2", {"x": True, "infinity": True}),  # an irrational Delta
         ("1/x^5 + 1", {"x": False, "infinity": True}),
