@@ -196,6 +196,7 @@ def simulated(run, *arguments):
 @parametrize(
     "arguments",
     [
+        (*_BALL, "--time", "1/2"),
         (*_BODY, "--sphere", "3", "--start", "1.41", "0.07", "0.85", "-0.14"),
         (*_BODY, "--sphere", "-11/10"),
         (*_BODY, "--sphere", "3", "--start", "3.1415", "0", "0", "0"),
@@ -206,8 +207,8 @@ def simulated(run, *arguments):
         (*_BODY, "--sphere", "plane", "--start", "0", "1", "1", "1"),
         (*_BODY, "--sphere", "-4", "--potential", "3/2*cos(u)", "--time", "sqrt(5)"),
     ],
-    ordinary=0,
-    long=2,
+    ordinary=1,
+    long=3,
 )
 def test_command_follows_every_start(run, arguments):
     motion = simulated(run, *arguments)
