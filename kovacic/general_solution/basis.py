@@ -210,10 +210,9 @@ def _quotients(w: Expr, y1: Expr, y2: Expr, x: Expr) -> Iterator[Expr | None]:
         else:
             near[point] = point + u
     for value in near.values() if manageable(W) else ():
+        # term by term: SymPy would expand the denominator of the quotient, too
         below = sympy.expand(w.subs(x, value), mul=False)
-        terms = sympy.Add.make_args(
-            sympy.expand(W.subs(x, value))
-        )  # of the quotient SymPy would expand the denominator
+        terms = sympy.Add.make_args(sympy.expand(W.subs(x, value)))
         yield finite_value(powsimp(sympy.Add(*(term / below for term in terms))), u, S.Zero)
     if manageable(W):  # in x itself, where the exponents of powers of u have letters
         joined = powsimp(sympy.expand(W / w))

@@ -359,9 +359,8 @@ def _constant_through(equation: FirstOrderEquation, h: Expr, particular: Expr, f
             raise _without_value(a)
         raise InputError(f"at most one solution is finite at {a}, a singular point of the equation")
     ends = (_known_limit(particular, x, Approach(a, side)) for side in (1, -1))
-    if not equation.is_regular and all(
-        end == sympy.oo for end in ends
-    ):  # every solution is, since h has a finite limit
+    # Every solution is infinite there if one is, since h has a finite limit.
+    if not equation.is_regular and all(end == sympy.oo for end in ends):
         raise _without_value(a)
     rest, there = v - value_or_limit(particular, x, a), value_or_limit(h, x, a)
     if equation.is_regular or not is_zero(there):

@@ -247,34 +247,50 @@ def _check_readings(
 def _check_ends(tokens: ParserTokens, x: str, y: str) -> None:
     """Raises `ParseError` where the operand of d/dx, or of a function without parentheses, may go on: d/dx x y', sin a*x."""
     for opening, closing in tokens.partners.items():
-        head, end, behind = opening - 1, closing, closing + 1
-        name, sign = tokens.pieces[head], tokens.piece(head, opening)
-        is_operator = name in DERIVATIVES and sign not in ("", *DERIVATIVES)
-        is_operator &= tokens[head].end <= tokens[opening + 1].start  # d/dx y, not dy/dx
-        if tokens.kinds[head] != "HEAD" or not (is_operator or name in BARE):
+        head, sign = opening - 1, tokens.piece(opening - 1, opening)
+        if tokens.kinds[head] != "HEAD":
             continue
-        if is_operator:
-            end -= 4  # diff(y, x, 1)
-        elif tokens.are(behind, "CIRCUMFLEX") and tokens[behind].start == tokens[behind].end:
-            behind += 2  # sin^2 x is sin(x)^2
-        follows = tokens.kinds[behind]
-        inside = [piece.rstrip(PRIME) for piece in tokens.pieces[opening + 1 : end]]
-        gap = tokens.text[tokens[head].end : tokens[opening + 1].start]
-        if is_operator:
-            is_enclosed = tokens.partners.get(opening + 1) == end - 1 or tokens.are(behind + 1, "NUMBER")
-            is_clear = (
-                not inside or (y in inside and is_enclosed and follows not in _POWERS) or follows not in _FOLLOWING
-            )
+        if _is_rate(tokens, opening):
+            end, behind = closing - 4, closing + 1  # diff(y, x, 1)
+            is_clear, kind = _is_whole_operand(tokens, opening, end, behind, y), "operand"
+        elif tokens.pieces[head] in BARE:
+            end, behind = closing, closing + 1
+            if tokens.are(behind, "CIRCUMFLEX") and tokens[behind].start == tokens[behind].end:
+                behind += 2  # sin^2 x is sin(x)^2
+            is_clear, kind = _is_whole_argument(tokens, opening, end, behind, x, y), "argument"
         else:
-            is_clear = x in inside or tokens.pieces[behind].rstrip(PRIME) == y or bool(OPENING & {*gap})
-            is_clear = is_clear or follows not in _FACTORS
+            continue
         if not is_clear:
-            factor = behind + (follows in ("STAR", "SLASH", "CIRCUMFLEX"))
+            factor = behind + (tokens.kinds[behind] in ("STAR", "SLASH", "CIRCUMFLEX"))
             last = tokens.partners.get(factor + (tokens.kinds[factor] == "HEAD"), factor)
             rest = tokens.text[tokens[end - 1].end : tokens[last].end]
             hint = f"write {sign}({tokens.piece(opening + 1, end)}{rest}) or ({tokens.piece(head, end)}){rest}"
-            said = f"the {'operand' if is_operator else 'argument'} of {sign} can be read in two ways"
-            raise tokens.error(ParseError, said, head, last + 1, hint=hint)
+            raise tokens.error(ParseError, f"the {kind} of {sign} can be read in two ways", head, last + 1, hint=hint)
+
+
+def _is_rate(tokens: ParserTokens, opening: int) -> bool:
+    """True for d/dx before its operand, not for dy/dx and diff(y, x)."""
+    sign = tokens.piece(opening - 1, opening)
+    is_written_out = tokens.pieces[opening - 1] in DERIVATIVES and sign not in ("", *DERIVATIVES)
+    return is_written_out and tokens[opening - 1].end <= tokens[opening + 1].start
+
+
+def _is_whole_operand(tokens: ParserTokens, opening: int, end: int, behind: int, y: str) -> bool:
+    """True if what stands behind the operand of d/dx can't belong to it: the operand has y and ends, as d/dx (x y')."""
+    inside = tokens.pieces[opening + 1 : end]
+    if not inside or tokens.kinds[behind] not in _FOLLOWING:
+        return True
+    is_enclosed = tokens.partners.get(opening + 1) == end - 1 or tokens.are(behind + 1, "NUMBER")
+    has_unknown = y in (piece.rstrip(PRIME) for piece in inside)
+    return has_unknown and is_enclosed and tokens.kinds[behind] not in _POWERS
+
+
+def _is_whole_argument(tokens: ParserTokens, opening: int, end: int, behind: int, x: str, y: str) -> bool:
+    """True if no factor stands behind an argument without parentheses, or the argument has x, or the factor is y."""
+    inside = {piece.rstrip(PRIME) for piece in tokens.pieces[opening + 1 : end]}
+    gap = tokens.text[tokens[opening - 1].end : tokens[opening + 1].start]
+    is_marked = x in inside or bool(OPENING & {*gap})
+    return is_marked or tokens.pieces[behind].rstrip(PRIME) == y or tokens.kinds[behind] not in _FACTORS
 
 
 def _with_factors(tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:
