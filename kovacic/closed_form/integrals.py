@@ -287,9 +287,7 @@ class _Curve:
         moved, curve = r(x + centre), g(x.num + centre)
         if g.degree == 3 or curve[1] or moved(-x) != moved:
             return cls(r, g, x)
-        num, den, square = (
-            p.field.poly([p[k] for k in range(0, p.degree + 1, 2)]) for p in (moved.num, moved.den, curve)
-        )
+        num, den, square = (p.field.poly([*p][::2]) for p in (moved.num, moved.den, curve))
         return cls(RatFunc(num, den), square * x.num, x, x - centre)
 
     def over(self, field: Field) -> _Curve:

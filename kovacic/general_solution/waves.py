@@ -235,7 +235,7 @@ def beside_waves(term: Expr, x: Expr) -> Expr:
     >>> print(beside_waves(x**2 * cos(x**2), x))
     x*sin(x**2)/2 - sqrt(2)*sqrt(pi)*fresnels(sqrt(2)*x/sqrt(pi))/4
     """
-    require(term.has(sin, cos) and not term.has(sympy.exp, log, atan))
+    require(term.has(sin, cos))
     return Add(*(_beside_at_most_one_wave(single, x) for single in Add.make_args(in_single_waves(term))))
 
 

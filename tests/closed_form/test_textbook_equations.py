@@ -120,10 +120,11 @@ RICCATI = [
     ("1/x^2", "-1/x", "-1", 0),  # likewise
     ("x^2", "0", "1", 0),  # Riccati's own
     ("2", "-2*x", "0 + 1", 1),
+    ("-3/(4*x^2)", "0", "1", 0),  # all are rational, from u = (x^2 + C)/sqrt(x)
 ]
 
 
-@parametrize(("p", "q", "r", "count"), RICCATI, ordinary=(0, 1, 2, 4, 5, 6))
+@parametrize(("p", "q", "r", "count"), RICCATI, ordinary=(0, 1, 2, 4, 5, 6, 7))
 def test_riccati_equations(p: str, q: str, r: str, count: int) -> None:
     x = sympy.Symbol("x")
     found = kovacic.solve_riccati(p, q, r)

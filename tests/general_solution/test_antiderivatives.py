@@ -165,3 +165,17 @@ def test_roots_of_numbers_before_an_integral_stay_roots(c: str) -> None:
     """1/sqrt(-i) stood before it as a power of `CRootOf(_Dummy**4 + 1, 2)`."""
     found = kovacic.dsolve(f"y'' + ({c})*y = log(x)").rhs
     assert not found.has(sympy.CRootOf, sympy.Dummy, sympy.Integral)
+
+
+def test_powers_in_a_denominator_are_kept_together() -> None:
+    assert prepared_integrand((x + 2) * (x + 1) ** sympy.Rational(-3, 2)) == x / (x + 1) ** sympy.Rational(3, 2) + 2 / (
+        x + 1
+    ) ** sympy.Rational(3, 2)
+
+
+def test_a_linear_argument_with_letters_is_a_new_variable() -> None:
+    """f(u) du with u = 3 x/a + b is the term again, which has x = a (u - b)/3 in it."""
+    a, b = sympy.symbols("a b")
+    term, u = x * sympy.asin(3 * x / a + b), 3 * x / a + b
+    [change] = [change for change in antiderivatives._arguments(term, x) if change.u == u]
+    assert sympy.expand(change.integrand.subs(change.t, u) * u.diff(x) - term) == 0

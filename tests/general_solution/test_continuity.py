@@ -82,6 +82,7 @@ def test_values_on_both_sides(problem: tuple[str, int]) -> None:
     ("formula", "coefficient", "is_seen"),
     [
         (sympy.atan(2 * sympy.tan(x / 2)), x, True),
+        (sympy.atan(sympy.Symbol("c") * sympy.tan(x / 2)), sympy.Symbol("c") * x, True),
         (sympy.atan(x), x, False),
         (sympy.log(x), 1 / x, False),
         (sympy.log(x**2 + 1), x, False),

@@ -20,9 +20,11 @@ from kovacic import answer_to, dsolve
 from kovacic.closed_form import steps
 from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import (
+    _LEADING,
     OSCILLATING,
     Approach,
     UnknownLimit,
+    _term_by_term,
     _with_leading_terms,
     limit_at,
     value_or_limit,
@@ -36,9 +38,9 @@ from kovacic.general_solution.particular import DefiniteIntegral
 from kovacic.general_solution.question import read_question, with_floats
 from kovacic.general_solution.riccati import RiccatiSolutions
 from kovacic.general_solution.substitution import finite_value
-from kovacic.general_solution.textbook import in_book_form, with_waves
+from kovacic.general_solution.textbook import as_quotient, in_book_form, with_waves
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.validity import needed_for
+from kovacic.general_solution.validity import _in_one_interval, needed_for
 from kovacic.general_solution.waves import _at_tangent, _continuous_angle, fractions_of_waves, wave_zeros
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 from kovacic.limits import DEFAULT_LIMITS
@@ -448,6 +450,10 @@ def test_steps_in_cases_and_in_steps() -> None:
     assert sympy.expand(steps.in_steps(inside, x) - sympy.Heaviside(x + 1) * (1 - sympy.Heaviside(x - 1))) == 0
     assert steps.heaviside_of(x * sympy.Heaviside(x) - 1, x) == sympy.Heaviside(x - 1)
     assert steps.split_at_jumps(sympy.DiracDelta(x - 1) * sympy.Heaviside(x - 1), x) is None
+    twice, once = (steps.split_at_jumps(x**5 * sympy.DiracDelta(*u), x) for u in ((2 * x - 6, 2), (6 - 2 * x, 1)))
+    assert twice is not None and once is not None  # x^5, 5 x^4 and 20 x^3 at 3 are 243, 405 and 540
+    assert twice.impulses == {3: {2: Rational(243, 8), 1: -Rational(810, 8), 0: Rational(540, 8)}}
+    assert once.impulses == {3: {1: -Rational(243, 4), 0: Rational(405, 4)}}
     near = (sympy.DiracDelta(x - 2) + sympy.DiracDelta(x + 2)) / 4
     assert steps.in_steps(sympy.DiracDelta(x**2 - 4), x) == sympy.expand(near)
 
@@ -481,6 +487,11 @@ def test_a_polynomial_of_algebraic_solutions_is_shown() -> None:
 
 def test_numbers_with_logarithms_are_zero() -> None:
     assert when_zero(log(6) - log(2) - log(3)) is Zero.ALWAYS
+
+
+def test_two_terms_that_are_zero_by_turns_have_no_zero_together() -> None:
+    """For even n the second one is 1 up to a factor, for odd n the first one."""
+    assert when_zero(sin(pi * n / 2) / sympy.gamma(-n / 2) + cos(pi * n / 2) / sympy.gamma((1 - n) / 2)) is Zero.NEVER
 
 
 def test_integrals_of_powers_have_short_constants() -> None:
@@ -565,3 +576,40 @@ def test_special_functions_are_real_at_the_point_of_the_values() -> None:
     """Beyond the singular point 1; about 0 they would be complex there."""
     asked = read_question("x*(1-x)*y'' + (1/3-x)*y' + y/5 = 0", None, "y(2)=1, y'(2)=0", None, DEFAULT_LIMITS)
     assert _real_places(asked) == (2,)
+
+
+def test_quotients_in_lowest_terms() -> None:
+    """Over one denominator, or multiplied out; a sum of products stays."""
+    forms = [
+        (x * (x + 1) + 3 * x, x**2 + 4 * x),
+        (1 / x + 1 / w, (x + w) / (x * w)),
+        (x + 3 * w * x**2, x + 3 * w * x**2),
+    ]
+    for given, expected in forms:
+        assert as_quotient(given) == expected
+
+
+def test_limits_of_sums_by_their_terms() -> None:
+    """Known for one unbounded term or for comparable ones; not for such as cancel."""
+    assert [_term_by_term(e, k) for e in (1 / k + 3, 2 + 5 * k, 1 / k - k**-2)] == [oo, 2, None]
+    assert _term_by_term(3 / k + log(k), k) == oo
+
+
+@pytest.mark.parametrize(("order", "first", "second"), [(2, Rational(1, 15), -3), (3, Rational(1, 105), -15)])
+def test_spherical_bessel_functions_begin_as_in_the_handbook(order: int, first: Any, second: Any) -> None:
+    """j_n = z^n/(2 n + 1)!! + ..., y_n = -(2 n - 1)!!/z^(n + 1) + ... [DLMF 10.52.1, 10.52.2]."""
+    j, y = (_LEADING[kind][sympy.S.Zero](sympy.Integer(order), k) for kind in (sympy.jn, sympy.yn))
+    assert sympy.limit(sympy.expand(j / k**order), k, 0) == first
+    assert sympy.limit(sympy.expand(y * k ** (order + 1)), k, 0) == second
+
+
+def test_relations_that_hold_in_an_interval() -> None:
+    """x + sqrt(2) is positive between 2 and 5, x - pi isn't everywhere."""
+    relations = [x > 2, x < 5, x + sqrt(2) > 0, x - pi > 0]
+    assert _in_one_interval(relations, x) == (x > 2, x < 5, x - pi > 0)
+
+
+def test_functions_of_a_tangent_in_single_waves() -> None:
+    whole = 1 / (w**2 + 1) + 3 * log(w**2 + 1) + sympy.atan(w)
+    assert _at_tangent(whole, 2 * x, w) == cos(2 * x) ** 2 - 6 * log(cos(2 * x)) + 2 * x
+    assert _at_tangent(w / (w**2 + 1) ** 2, x / 2, w) == sin(x / 2) * cos(x / 2) ** 3

@@ -29,7 +29,7 @@ from kovacic.special.gauss import Gauss
 from kovacic.special.pullback import Pullback
 from kovacic.special.search import EQUATIONS, find, special_functions
 from kovacic.special.whittaker import Whittaker
-from kovacic.special.writer import Wanted, Writer
+from kovacic.special.writer import _SLOPES, Wanted, Writer
 
 x = sympy.Symbol("x")
 X = RatFunc(QQ.poly([0, 1]))
@@ -848,3 +848,18 @@ def test_an_exponent_that_may_be_an_integer_is_an_exception_or_known_to_be_one(d
         with mpmath.workdps(40):
             (u, du, _), (v, dv, _) = (mpmath.taylor(member, POINT, 2) for member in (first, second))
             assert abs(u * dv - du * v) > 1e-12 * (abs(u * dv) + abs(du * v))
+
+
+@pytest.mark.parametrize("function", _SLOPES)
+def test_slopes_of_functions(function: Any) -> None:
+    """dF/dz = s F + t F1, against a difference quotient of F itself."""
+    z = sympy.Symbol("z")
+    letters = {sympy.hyper: [(sympy.Rational(2, 3), sympy.S(5) / 7), (sympy.Rational(3, 4),)]}
+    single = [sympy.airyai, sympy.airybi, sympy.elliptic_k, sympy.elliptic_e]
+    beside = letters.get(function, [] if function in single else [sympy.Rational(7, 3)])
+    s, t, other = _SLOPES[function](*beside, z)
+    F = function(*beside, z)
+    at = {z: sympy.Rational(2, 7)}
+    h = sympy.Rational(1, 10**12)
+    quotient = (F.subs(z, at[z] + h).evalf(40) - F.subs(z, at[z] - h).evalf(40)) / (2 * h)
+    assert abs(quotient - (s * F + t * other).subs(at).evalf(40)) < 1e-15
