@@ -447,6 +447,16 @@ def test_levels_in_pieces_solve_the_equations_of_matching(V: str, domain: Any, b
         assert abs((left / right).imag) < 1e-6
 
 
+def test_a_linear_potential_between_walls_is_matched_and_a_parabola_is_not() -> None:
+    """u(0) = u(3) = 0 for a multiple of Ai(-E) Bi(x - E) - Bi(-E) Ai(x - E)."""
+    E = sympy.Symbol("E")
+    line, parabola = (kovacic.spectrum(V, domain=(0, 3)) for V in ("x", "x^2/3 + x"))
+    [equation] = line.matching
+    first, last = sympy.airyai(-E), sympy.airyai(3 - E)
+    assert equation == sympy.Eq(first * sympy.airybi(3 - E) - last * sympy.airybi(-E), 0)
+    assert parabola.matching == ()
+
+
 def test_a_square_well_in_letters() -> None:
     positive = {"V0": "positive", "a": "positive"}
     found = kovacic.spectrum("Piecewise((-V0, abs(x) < a), (0, True))", assume=positive)

@@ -451,7 +451,8 @@ def test_steps_in_cases_and_in_steps() -> None:
     assert steps.heaviside_of(x * sympy.Heaviside(x) - 1, x) == sympy.Heaviside(x - 1)
     assert steps.split_at_jumps(sympy.DiracDelta(x - 1) * sympy.Heaviside(x - 1), x) is None
     twice, once = (steps.split_at_jumps(x**5 * sympy.DiracDelta(*u), x) for u in ((2 * x - 6, 2), (6 - 2 * x, 1)))
-    assert twice is not None and once is not None  # x^5, 5 x^4 and 20 x^3 at 3 are 243, 405 and 540
+    assert twice is not None
+    assert once is not None  # x^5, 5 x^4 and 20 x^3 at 3 are 243, 405 and 540
     assert twice.impulses == {3: {2: Rational(243, 8), 1: -Rational(810, 8), 0: Rational(540, 8)}}
     assert once.impulses == {3: {1: -Rational(243, 4), 0: Rational(405, 4)}}
     near = (sympy.DiracDelta(x - 2) + sympy.DiracDelta(x + 2)) / 4
@@ -585,8 +586,8 @@ def test_quotients_in_lowest_terms() -> None:
         (1 / x + 1 / w, (x + w) / (x * w)),
         (x + 3 * w * x**2, x + 3 * w * x**2),
     ]
-    for given, expected in forms:
-        assert as_quotient(given) == expected
+    for value, expected in forms:
+        assert as_quotient(value) == expected
 
 
 def test_limits_of_sums_by_their_terms() -> None:
