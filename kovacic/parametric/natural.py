@@ -68,8 +68,8 @@ from kovacic.writing.formula import free_name
 
 #: The largest d for which the determinants of conditions with a natural number d are computed unasked, and sampled.
 DEFAULT_DEGREE = 2
-#: The text of Delta_d if the exponents need too large an extension.
-WITHOUT_FORMULA = "no polynomial, as the exponents are irrational: at each point the rank of its linear system decides"
+#: What is said of a Delta_d that would need too large an extension, or too much work.
+WITHOUT_FORMULA = "not written out (at given values of the parameters its linear system decides)"
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Determinant:
 
     `exponents` vanishes where d is the degree.  `factors` are the irreducible factors of Delta_d.  There are none if it is 1,
     and P exists nowhere, or, with more equations than unknowns, only where all polynomials in `system` vanish.  `factors` is
-    None without a formula in the parameters, since the exponents need too large an extension of their field.
+    None without a formula in the parameters.
     """
 
     exponents: FunctionPoly
@@ -161,9 +161,12 @@ class Natural(Statement):
 
     def given(self, number: int) -> Iterator[tuple[FunctionPoly, Hypersurface, RatFunc]]:
         """Each function at whose zeros the exponents give the number, its zeros (all values for 0), and S there."""
+        fixed = self.constant.names
         equations = [over_parameters(factor(Fraction(number))) for factor in self.factors or ()]
         for exponents in union(irreducible_factors(value) if value else [value] for value in equations):
-            surface = hypersurface(exponents) if exponents else everywhere(exponents.field, self.constant)
+            if exponents and not any(degrees(exponents)[: len(exponents.field.names) - len(fixed)]):
+                continue  # a number other than 0
+            surface = hypersurface(exponents, fixed) if exponents else everywhere(exponents.field, self.constant)
             with suppress(ZeroDivisionError):
                 S = surface.restricted(self.S)
                 if isinstance(S.field, FunctionField) and S.field.names[-1:] == self.constant.names:

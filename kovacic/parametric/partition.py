@@ -135,7 +135,8 @@ def _rational_logarithmic_derivatives(problem: Problem) -> Iterator[tuple[Functi
     for special in chain.from_iterable(irreducible_factors(equation(Fraction(d))) for d in range(SMALL_DEGREE + 1)):
         linear = (i for i in energies if degrees(special)[i] == 1 and powers_of(special, i)[1].num.is_constant())
         for i in islice(linear, 1):
-            surface = restriction.hypersurface(special, i)
+            names = special.field.names
+            surface = restriction.hypersurface(special, fixed=names[:i] + names[i + 1 :])
             riccati = decide(surface.restricted(problem.S), problem.budget).riccati
             if riccati is not None and riccati.degree == 1 and riccati.coefficients[0].field == surface.field:
                 omega = RatFunc(*(surface.back(part, special.field) for part in riccati.coefficients[0].cleared()))

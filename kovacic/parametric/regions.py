@@ -37,7 +37,7 @@ from kovacic.parametric.claims import (
     rational_number,
 )
 from kovacic.parametric.integers import Congruence
-from kovacic.parametric.natural import Natural
+from kovacic.parametric.natural import WITHOUT_FORMULA, Natural
 from kovacic.parametric.prose import Words
 from kovacic.parametric.restriction import Hypersurface, hypersurface, with_free_constant
 from kovacic.parametric.solutions import Later, PolynomialSolution, SolutionsByDegree
@@ -281,7 +281,8 @@ class ParameterRegion:
                 text = "; ".join(said)
                 if len(text) > MOST_CHARACTERS:
                     text = f"{text[:MOST_CHARACTERS]}..."
-                found.append(f"Delta_{d} = {text}" if said else f"{statement.letter} is never {d}")
+                equals = "is" if WITHOUT_FORMULA in values else "="
+                found.append(f"Delta_{d} {equals} {text}" if said else f"{statement.letter} is never {d}")
         return tuple(found)
 
     @property

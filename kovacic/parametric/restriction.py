@@ -167,22 +167,22 @@ class Hypersurface(ParameterPoint):
         return in_field(function, field, self.curve)
 
 
-def hypersurface(function: FunctionPoly, eliminated: int | None = None) -> Hypersurface:
-    """Values of the parameters at which an irreducible polynomial vanishes.
+def hypersurface(function: FunctionPoly, fixed: Sequence[str] = ()) -> Hypersurface:
+    """Values of the parameters at which an irreducible polynomial in at least one that isn't `fixed` vanishes.
 
-    A parameter that occurs linearly is eliminated: the given one, or preferably one with a constant coefficient; otherwise one
+    A parameter that isn't fixed and occurs linearly is eliminated, preferably one with a constant coefficient; otherwise one
     becomes algebraic over the others, unless the zeros are a rational curve.  Eliminating t from A t + B misses the zeros of A;
     these are zeros of the polynomial only if there are two other parameters, since A and B are coprime.
     """
     names = function.field.names
     powers = degrees(function)
-    leading = {i: claims.powers_of(function, i)[k] for i, k in enumerate(powers) if k}
-    linear = [i for i in leading if powers[i] == 1 and eliminated in (None, i)]
+    leading = {i: claims.powers_of(function, i)[k] for i, k in enumerate(powers) if k and names[i] not in fixed}
+    linear = [i for i in leading if powers[i] == 1]
     if linear:  # constants come first, then the shortest
         i = min(linear, key=lambda i: (not leading[i].num.is_constant(), len(leading[i].num)))
     else:
         curve = _with_weights(function)
-        if curve is not None:
+        if curve is not None and {*fixed}.isdisjoint(names[i] for i, k in enumerate(powers) if k):
             return curve
         i = min(leading, key=lambda i: powers[i])
     others = (*names[:i], *names[i + 1 :])

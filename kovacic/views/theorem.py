@@ -516,7 +516,7 @@ def _determinant_table(natural: Natural, number: int) -> Iterator[Block]:
         if any(len(value) > MOST_CHARACTERS // 4 for value in found):  # too wide for a table
             break
         if {*found} == {WITHOUT_FORMULA}:
-            yield say(delta, f" is given by {WITHOUT_FORMULA}.")
+            yield say(delta, f" is {WITHOUT_FORMULA}.")
             return
         for value, places in found.items():
             shown: Sentence = value if value == WITHOUT_FORMULA else Math.of(value)
