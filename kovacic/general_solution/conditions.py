@@ -121,7 +121,7 @@ def apart(eq: Any, ics: Any) -> tuple[Any, Any]:
 
 def read_conditions(ics: Mapping[Any, Any] | str | None, *functions: Expr) -> list[Condition]:
     """Conditions on unknown functions, from a mapping or from one text: "y(0)=1, y'(0)=0".  Raises `InputError`."""
-    pairs = conditions_in(ics) if isinstance(ics, str) else (ics or {}).items()
+    pairs = conditions_in(ics, functions[0].args[0].name) if isinstance(ics, str) else (ics or {}).items()
     given = dict(pairs)
     if len(given) < len(pairs):
         raise InputError(f"a value is given twice in {ics!r}", hint='write "y(0)=1, y\'(0)=0", every value once')

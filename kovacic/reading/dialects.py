@@ -61,7 +61,7 @@ _COMMANDS = {
     **pairs(
         r"\cdot *  \times *  \div /  \infty oo  \prime '  \imath I  \partial d  \vert |  \lvert |  \rvert |  \mid |"
     ),
-    **pairs(r"\{ (  \lbrace (  \lbrack (  \} )  \rbrace )  \rbrack )"),
+    **pairs(r"\{ (  \lbrace (  \lbrack [  \} )  \rbrace )  \rbrack ]"),
     **{f"\\{name}": name for name in (*GREEK, *SPECIAL_LETTERS, *BARE)},
     **{f"\\var{name}": name for name in GREEK},
 }
@@ -177,6 +177,11 @@ def in_own_notation(text: str, scan: Tokens, *, condition: bool = False) -> Pars
     latex = any(token.kind == "COMMAND" for token in scan) or _BRACES.search(scan.spaced) is not None
     if latex:
         scan = rewritten(_Latex(text, scan).ordinary(), LATEX)
+    first = scan.mismatched()
+    if first is not None:
+        opening, closing = scan[first], scan[scan.partners[first]]
+        said = f"{closing.text} closes {opening.text}, a bracket of another kind"
+        raise error_at(text, said, [opening, closing], "brackets come in pairs: (...), [...], {...}")
     return _Translation(text, scan, latex=latex, condition=condition).tokens()
 
 

@@ -36,9 +36,9 @@ _USUAL_UNKNOWNS = frozenset("xyzuvwqf")
 _NO_VARIABLES = frozenset({*NUMBER_NAMES, ENERGY, "e", "D"})
 OPERATOR = "D"
 _NAME = r"[^\W\d]\w*"
-#: x^1/2, x^-3/2; e^-x^2/2 and e^-2*x, without blanks; 1/2m before a derivative.
+#: x^1/2, x^-3/2; e^-x^2/2, without blanks; 1/2m before a derivative.
 _ROOT = pattern(r"\^ ((?:- )?1|- \d+) / (\d+)")
-_EXPONENTIAL = r"(e~\^~(?:-~)?(?:[^\W\d]\w*(?:~\^~\w+)?(?=~/)|(?!{x} )[\w.]+(?=~\*~{x}(?!\S))))~([*/])~(\w+)"
+_EXPONENTIAL = pattern(r"(e~\^~(?:-~)?[^\W\d]\w*(?:~\^~\w+)?)~/~(\w+)")
 _DIVISOR = pattern(rf"/~([\d.]+(?:~\w+)+)(?=(?: \)|\x20) (?:{_NAME}'|(?:diff|Derivative) \())")
 #: Patterns with two readings, the message and the hint: e^2x is e^(2x) or e^2 x, 1e-3y is 0.001 y or e - 3 y.
 _EXPONENT = (
@@ -114,7 +114,7 @@ class Vocabulary:
         _check_readings(split, _EXPONENT[0].replace("BASE", base), *_EXPONENT[1:], unknown=y)
         _check_ends(tokens, x, y)
         named, factors = _with_factors(split, x, y) if "HEAD" in split.kinds else (split, [])
-        guesses = [*_guesses(tokens, x), *products, *factors, *self._imaginary_unit(split, x, y)]
+        guesses = [*_guesses(tokens), *products, *factors, *self._imaginary_unit(split, x, y)]
         if has_operator:
             new = [t._replace(kind="OPERATOR", text=x) if t[:2] == ("NAME", OPERATOR) else t for t in named]
             named = tokens.of(new)
@@ -210,14 +210,14 @@ class Vocabulary:
         return tokens.error(ParseError, said, k, k + 1, hint=hint, shell=f"{meant}, or declare it: --names {name}")
 
 
-def _guesses(tokens: ParserTokens, x: str) -> Iterator[str]:
+def _guesses(tokens: ParserTokens) -> Iterator[str]:
     """Notes on readings that may not be the intended ones: x^1/2 is x/2; sin x/2, without parentheses or a blank, (sin x)/2."""
     for number, below in _ROOT.findall(tokens.line)[:1]:
         n = number.replace(" ", "")
         yield f"^{n}/{below} was read as (...)^{n} divided by {below}; a root is written ^({n}/{below})"
-    for power, sign, behind in pattern(_EXPONENTIAL.replace("{x}", re.escape(x))).findall(tokens.spaced):
+    for power, below in _EXPONENTIAL.findall(tokens.spaced):
         shown = power.replace(" ", "")
-        yield f"{shown}{sign}{behind} was read as ({shown}){sign}{behind}"
+        yield f"{shown}/{below} was read as ({shown})/{below}"
     for divisor in _DIVISOR.findall(tokens.spaced):
         shown = divisor.replace(" ", "")
         yield f"/{shown} was read as /({shown})"

@@ -103,8 +103,13 @@ class Tokens(list[Token]):
 
     @property
     def is_enclosed(self) -> bool:
-        """True if the first token is a bracket closed by the last one."""
-        return len(self) > 1 and self.partners.get(0) == len(self) - 1
+        """True if the first token is a bracket closed by the last one, of its kind."""
+        return self.partners.get(0) == len(self) - 1 and self.mismatched() is None
+
+    def mismatched(self) -> int | None:
+        """The index of the first bracket that one of another kind closes."""
+        pairs = ((k, self[k].text + self[last].text) for k, last in self.partners.items())
+        return next((k for k, pair in sorted(pairs) if pair not in ("()", "[]", "{}", "||")), None)
 
 
 class ParserTokens(Tokens):
@@ -254,7 +259,6 @@ _SYNONYMS = {
 
 _PACKAGES = "sympy|sp|sm|sy|np|math|numpy"
 _SLOPE = r"(?:diff|Derivative) \( (LETTER) \( (LETTER) \) , \2 \)"
-_POINT = r"((?:[^{}()=\s]+ +){1,9})"
 _D = r"d(?: )?\\?LETTER"
 _RATE = rf"\\?LETTER [\x27˙]+|{_D} / {_D}|\\frac \{{ {_D} \}} \{{ {_D} \}}"
 _BEHIND_NAME = r"(?:(?<=\w\x20)|(?<=\w\x20\x20))"
@@ -288,8 +292,11 @@ NOTATIONS = (
         rf"{_BEHIND_NAME}\^ (?:OPEN ((?:['\"]+ )+)CLOSE|(['\"]+(?: '+)*))",
         lambda m: primes_of(m[1] or m[2]),
     ),
-    Rewrite("evaluated at", rf"\| _ \{{ LETTER = {_POINT}\}}", lambda m: f"( {' '.join(m[1].split())} )"),
-    Rewrite("y(x=0)", rf"(?<=[\w\x27]\x20)\( LETTER = {_POINT}\)(?= ==? )", lambda m: f"( {' '.join(m[1].split())} )"),
+    Rewrite(
+        "evaluated at",
+        r"\| _ \{ (LETTER) = ((?:[^{}()=\s]+ +){1,9})\}",
+        lambda m: " ".join(f"( {m[1]} = {m[2]} )".split()),
+    ),
     Rewrite(
         "(dy/dx)(0)", rf"OPEN ({_RATE}) CLOSE(?= OPEN (?:- )?(?:[\d.]+|\\?pi|π) )", lambda m: " ".join(m[1].split())
     ),

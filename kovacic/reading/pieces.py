@@ -57,9 +57,24 @@ class PlacedValue(NamedTuple):
     value: str
 
 
-def conditions_in(text: str) -> tuple[PlacedValue, ...]:
-    """Conditions that stand alone: "y(0) = 1, y'(0) = 0".  Raises `ParseError` for anything else."""
-    return tuple(given for statement in _statements(_plain_tokens(text)) for given in _placed_values(text, statement))
+def conditions_in(text: str, variable: str) -> tuple[PlacedValue, ...]:
+    """Conditions that stand alone: "y(0) = 1, y'(x = 0) = 0".  Raises `ParseError` for anything else."""
+    statements = [*_statements(_plain_tokens(text))]
+    check_points(text, [letter for statement in statements for letter in _letters_of_points(statement)], variable)
+    return tuple(given for statement in statements for given in _placed_values(text, statement))
+
+
+def _letters_of_points(scan: Tokens) -> list[Token]:
+    """t of y(t = 0)."""
+    return [scan[scan.span(match, 1)[0]] for match in _LETTER_OF_POINT.finditer(scan.spaced)]
+
+
+def check_points(text: str, letters: Sequence[Token], variable: str) -> None:
+    """Raises `ParseError` for y(t = 0) where t isn't the variable."""
+    for letter in letters:
+        if letter.text != variable:
+            said = f"the value is given in {letter.text}, and the variable is {variable}"
+            raise error_at(text, said, [letter], f"write y({variable} = 0), or y(0)")
 
 
 def _plain_tokens(text: str) -> Tokens:
@@ -205,7 +220,15 @@ class Paste:
     def equations(self) -> list[ParserTokens]:
         if self.plain is not None:
             return [self.plain]
-        return [in_own_notation(self.text, scan) for scan in self.equation_scans]
+        found = [in_own_notation(self.text, scan) for scan in self.equation_scans]
+        for tokens in found:
+            tokens.variable = next((token.text for token in self.points), tokens.variable)
+        return found
+
+    @cached_property
+    def points(self) -> list[Token]:
+        """The letters of y(t = 0)."""
+        return [letter for scan in self.value_scans for letter in _letters_of_points(scan)]
 
     @cached_property
     def conditions(self) -> tuple[PlacedValue, ...]:
@@ -213,7 +236,7 @@ class Paste:
 
     def add(self, scan: Tokens) -> None:
         """Adds an equation or a value; left = right for SymPy's Eq(left, right)."""
-        is_call = scan[0].text in _WHOLE and scan.partners.get(1) == len(scan) - 1
+        is_call = scan[0].text in _WHOLE and Tokens(scan[1:]).is_enclosed
         match Tokens(scan[2:-1]).split() if is_call else []:
             case [[*_, last] as left, [first, *_] as right, *_]:
                 scan = Tokens([*left, Token("SIGN", "=", last.end, first.start), *right])
@@ -280,7 +303,7 @@ class Paste:
         if match is None:
             return False
         opening = scan.span(match)[1] - 1
-        if scan.partners.get(opening) != len(scan) - 1:
+        if not Tokens(scan[opening:]).is_enclosed:
             return False
         self.has_command = True
         first, *rest = map(self.resolved, Tokens(scan[opening + 1 : -1]).split())
@@ -370,6 +393,7 @@ _EQUATION = pattern(r"==?|(?<!^)['\"˙]+|\\prime|\\d+ot|(?:diff|Diff|Derivative|
 _IDENTITY = pattern(r"(?P<y>LETTER) (?:˙+ = diff \( (?P=y) .*\)|˙ = (?P=y) '|˙˙ = (?P=y) '')")
 #: A name, or a derivative, with an argument.
 _CALL = pattern(r"(?:\\?[^\W\d]\S*(?: ['\"˙]+)?|\}) (?:\{ )?[(\[]")
+_LETTER_OF_POINT = pattern(r"\( (LETTER) =")
 #: Primes that belong to no value: y'', y''(x).
 _PRIMES_ALONE = pattern(r"(?:''|\"|˙˙)(?! OPEN)")
 
@@ -446,7 +470,9 @@ def _is_condition(scan: Tokens, *, is_first: bool = False) -> bool:
 
 def _placed_values(text: str, scan: Tokens) -> Iterator[PlacedValue]:
     """The conditions that one statement has; y(0) = y'(0) = 1 are two."""
-    plain = Tokens(token for token in scan if token.text not in ("$", "`"))
+    letters = _letters_of_points(scan)
+    points = (token for k, token in enumerate(scan) if token not in letters and scan[k - 1] not in letters)
+    plain = Tokens(token for token in points if token.text not in ("$", "`"))
     sides = [in_own_notation(text, side, condition=True) for side in plain.split(_ASSIGNS)]
     # In this package's notation a blank stands between names and numbers alone.
     *places, value = (re.sub(r"(?<![\w']) | (?!\w)", "", " ".join(tokens.pieces)) for tokens in sides)

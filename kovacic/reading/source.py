@@ -18,7 +18,7 @@ from kovacic.reading.constants import Constants, read_with_constants
 from kovacic.reading.expression import RationalReader
 from kovacic.reading.lexer import error_at
 from kovacic.reading.naming import Source, Vocabulary, chosen_variable
-from kovacic.reading.pieces import Paste, is_equation
+from kovacic.reading.pieces import Paste, check_points, is_equation
 
 
 def source_of(
@@ -57,6 +57,7 @@ def source_of(
         raise error_at(given.text, f"the text has more than the {kind}", other, hint)
     vocabulary = Vocabulary(variable or given.variable, unknown, frozenset(names))
     source = vocabulary.of(given.equations[0], is_equation=equation or given.is_equation, notes=given.notes)
+    check_points(given.text, given.points, source.variable)
     return source._replace(limits=limits)
 
 

@@ -31,7 +31,7 @@ from kovacic.reading.linear import SYMBOLIC_LIMITS, LinearArithmetic, differenti
 from kovacic.reading.names import FUNCTION_NAMES, INFINITIES, KNOWN_NUMBERS, NUMBER_NAMES, POWER_CALLS, is_function
 from kovacic.reading.naming import Source, Vocabulary, argument_of, differentiated
 from kovacic.reading.parser import Site, excerpt, parse
-from kovacic.reading.pieces import Paste
+from kovacic.reading.pieces import Paste, check_points
 
 #: Stands in for `Constants` where parameters and algebraic numbers are SymPy expressions.
 SYMBOLS: Any = SimpleNamespace(
@@ -215,8 +215,10 @@ def read_equations(
         raise InputError("these equations contain no derivative", hint="for example x' = y, y' = -x")
     arguments = (argument_of(tokens, unknown) for tokens in paste.equations for unknown in unknowns)
     occurring = {name for tokens in paste.equations for name in tokens.names} - {*unknowns}
-    usual = "x" if "x" in occurring and "t" not in occurring else "t"
+    default = paste.equations[0].variable or "t"
+    usual = "x" if "x" in occurring and default not in occurring else default
     chosen = var or paste.variable or next(filter(None, arguments), usual)
+    check_points(paste.text, paste.points, chosen)
     guesses = dict.fromkeys(paste.notes)
     equations = []
     for tokens in paste.equations:
