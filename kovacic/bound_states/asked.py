@@ -15,7 +15,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import count
+from itertools import chain, count
 from typing import Any
 
 import sympy
@@ -146,6 +146,19 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
     signs = Signs(known, names)
+    even = _even_rates(question)
+    for name in sorted(name for name, symbol in signs.symbols.items() if signs.sign(symbol) is None):
+        opposite = known.also(name, ("negative",))
+        is_implied = False
+        if not opposite.of(name).is_contradiction():
+            first, last = map(Signs(opposite, names).real, question.interval)
+            is_implied = Signs(opposite, names).sign(last - first) == -1  # 0 < x < pi/a
+        if is_implied or name in even:
+            known = known.also(name, ("positive",))
+        if name in even and not is_implied:
+            said = f"{name} is taken as positive, as V doesn't depend on its sign"
+            question = replace(question, notices=(*question.notices, said))
+    signs = Signs(known, names)
     first, last = map(signs.real, question.interval)
     if signs.is_nonnegative(first - last) or sympy.oo in (first, -last):
         raise InputError(f"the domain is empty: {first} isn't below {last}")
@@ -155,6 +168,18 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     return SpectralProblem(
         **vars(question), parsed=parsed, domain=(first, last), known=known, signs=signs, meanings=letters
     )
+
+
+def _even_rates(question: Asked) -> set[str]:
+    """The parameters in rates, as a in 1/cosh(a x), of which V and the domain are even functions."""
+    x = sympy.Symbol(question.variable)
+    arguments = [sympy.expand(f.args[0]) for f in question.S.atoms(sympy.Function) if f.has(x)]
+    found = set[str]()
+    for rate in {*chain.from_iterable(argument.coeff(x).free_symbols for argument in arguments)} - {x}:
+        S, *interval = (given.xreplace({rate: -rate}) for given in (question.S, *question.interval))
+        if interval == [*question.interval] and sympy.cancel(S - question.S) == 0:
+            found.add(rate.name)
+    return found
 
 
 def unsolved(question: Asked, reason: NotRational) -> Spectrum:

@@ -129,7 +129,10 @@ class Original:
     @property
     def _direction(self) -> int:
         """The sign of the rate."""
-        return self.signs.known_sign(self.rate, f"the sign of {self.rate} isn't known: assume that it is positive")
+        rate = self.rate.primitive()[1]
+        example = ", ".join(sorted(f"{letter}=positive" for letter in rate.free_symbols))
+        otherwise = f"the sign of {caret(as_text(rate))} isn't known: assume it, for example {example}"
+        return self.signs.known_sign(self.rate, otherwise)
 
     def at(self, side: int) -> Any:
         """t at the left or the right end of the domain, 0 or 1, a number or oo (both of its ends are one point)."""

@@ -1421,7 +1421,7 @@ def test_a_complex_exponent_difference_needs_its_conjugate() -> None:
 
 def test_no_states_are_none_only_where_that_is_proven() -> None:
     """An undecided spectrum had no states, as if there were no levels; for a = 1 there are."""
-    undecided = kovacic.spectrum("-6/cosh(a*x)^2")
+    undecided = kovacic.spectrum("exp(-2*a*x) - 6*exp(-a*x)")
     with pytest.raises(kovacic.InputError, match="no level is known"):
         undecided.states({"a": 1})
     assert kovacic.spectrum("6/cosh(x)^2").states() == ()
