@@ -3,6 +3,7 @@
     python benchmarks/mutation.py verify --sample 100           # 100 random faults in kovacic/verify
     python benchmarks/mutation.py checker --again               # all; those that survived an earlier run as well
     python benchmarks/mutation.py package --sample 20 --contexts .coverage    # of the whole package
+    python benchmarks/mutation.py package --sample 20 --contexts .coverage .coverage_long --long    # as .ci/run
     python benchmarks/mutation.py --prune                       # forget what isn't there any more
 
 A fault is a comparison, an arithmetic or a logical operator changed into its neighbour, a whole number raised by one, a
@@ -165,7 +166,7 @@ class Planter(ast.NodeVisitor):
         if node.returns is not None and ast.unparse(node.returns) == "bool":
             for value in (True, False):
                 if self.offer(node, f"always {value}"):
-                    node.body = [ast.Return(ast.Constant(value))]
+                    node.body = [ast.copy_location(ast.Return(ast.Constant(value)), node)]
         for statement in node.body:
             self.visit(statement)
         self.place.pop()
@@ -212,7 +213,7 @@ class Planter(ast.NodeVisitor):
     def visit_If(self, node: ast.If) -> None:
         refusal = node.body[-1]
         if isinstance(refusal, ast.Raise) and self.offer(node, f"no refusal: {ast.unparse(node.test)}"):
-            node.body = [ast.Pass()]
+            node.body = [ast.copy_location(ast.Pass(), refusal)]
         self.generic_visit(node)
 
     def visit_Raise(self, node: ast.Raise) -> None:
@@ -319,8 +320,11 @@ class Runner:
         """As `reach`, from a file of coverage.py with a context for each test; their lines order the tests, of 2 to 3 s."""
         from coverage import CoverageData
 
-        data = CoverageData(self.options.contexts)
-        data.read()
+        data = CoverageData(no_disk=True)
+        for name in self.options.contexts:
+            one = CoverageData(name)
+            one.read()
+            data.update(one)
         lines, reached = Counter[str](), dict[str, list[str]]()
         for path in data.measured_files():
             if (file := "kovacic/" + path.rpartition("/kovacic/")[2]) in files:
@@ -478,7 +482,8 @@ def main() -> int:
     parser.add_argument("--prune", action="store_true", help="forget the faults in lines that were changed since")
     parser.add_argument("--sample", type=int, help="so many random faults; by default all")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--contexts", help="a file of coverage.py that has the lines of each test")
+    parser.add_argument("--contexts", nargs="+", help="files of coverage.py that have the lines of each test")
+    parser.add_argument("--long", action="store_true", help="the long tests of .ci/run as well")
     parser.add_argument("--again", action="store_true", help="those that survived an earlier run, too")
     options = parser.parse_args()
     if options.prune:
@@ -488,6 +493,7 @@ def main() -> int:
         parser.error("a part, or --prune, is expected")
     tests = [str(path.relative_to(ROOT)) for pattern in PARTS[options.part][1] for path in sorted(ROOT.glob(pattern))]
     arguments = ["-x", "-q", "-s", "-p", "no:cacheprovider", "--no-header", "--tb=no", *tests]
+    arguments += ["-m", "not slow"] if options.long else []
     status = int(pytest.main(arguments, plugins=[Runner(options)]))
     write_table()
     return status

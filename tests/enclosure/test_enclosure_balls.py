@@ -132,6 +132,8 @@ def test_edges_of_balls() -> None:
     with pytest.raises(TypeError, match="complex numbers have no order"):
         _ = disc.upper
     assert str(kovacic.Ball((-7, -3))) == "-0.875" + "0" * 37
+    small = kovacic.Ball((3, -2), (5, 0), rad=(1, -60), real=False)
+    assert small._repr_latex_() == r"$(0.75000000000000000000 + 5.0000000000000000000\,i) \pm 8.7 \cdot 10^{-19}$"
     assert kovacic.Ball((7, -2), rad=(1, -8)).to_dict() == {"re": "1.75000", "im": "0", "radius": "0.0040"}
 
 

@@ -380,6 +380,7 @@ def test_limits_that_cannot_be() -> None:
         ("(1-x^2)*y'' - 2*x*y' + 3*y = 0", "y(1)=1, y(-1)=bounded"),
         ("x*y'' + y' = 1/x", "y(0)=0"),
         ("y'' - y = 1", "y(oo)=0"),
+        ("y'' - y = x", "y(oo)=0"),
     ):
         with pytest.raises(kovacic.UnsatisfiableConditions, match="no solution"):
             dsolve(text, ics=values)

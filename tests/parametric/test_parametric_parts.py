@@ -79,6 +79,7 @@ def test_schwarz_table_has_the_parities() -> None:
     assert kimura_structure((F(2, 5), F(2, 5), F(2, 5))) is Structure.ICOSAHEDRAL
     assert kimura_structure((F(2, 5), F(2, 5), F(7, 5))) is None
     assert kimura_structure((F(1, 2), F(5, 2), None)) is Structure.IMPRIMITIVE
+    assert kimura_structure((F(5, 2), F(1, 3), F(1, 4))) is Structure.OCTAHEDRAL
     assert kimura_structure((None, F(1, 3), F(1, 3))) is None
 
 
