@@ -172,8 +172,9 @@ def _not_analytic(point: ExactPoint, start: ExactPoint) -> InputError:
         shown = (where.real if where.imag.is_zero() else where).str(10, radius=False)
     return InputError(
         f"the coefficients aren't known to be analytic near {shown}, on the path from {start}",
-        hint="go around it through the complex plane, e.g. path=[...] with a vertex off the axis; "
-        "the result depends on the side",
+        hint="stay on one side of it, or evaluate along path=[...], with a vertex off the axis; the result depends on "
+        "where it passes",
+        shell="stay on one side of it",
     )
 
 

@@ -240,8 +240,11 @@ def analytic_journeys(
 ) -> tuple[Journey, tuple[Substitution, Journey] | None]:
     """As `journey_of` for coefficients that are functions of x: in x and, if the path is straight, in t."""
     if path in ("above", "below"):
-        hint = "path=[v1, v2, ...] goes through these vertices"
-        raise InputError(f"path={path!r} isn't for equations whose coefficients are functions of x", hint=hint)
+        raise InputError(
+            f"path={path!r} isn't for equations whose coefficients are functions of x",
+            hint="path=[v1, v2, ...] goes through these vertices",
+            shell="leave --path out",
+        )
     vertices = _vertices_of(path)
     origin = read_start(None, Start(*start))
     from kovacic.enclosure.analytic import ConstantWay, constant_way

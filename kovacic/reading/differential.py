@@ -67,7 +67,7 @@ class EquationReader(RationalReader):
         names = {number: sympy.Symbol(name) for name, number in numbers.items()}
         value = walked(expression.xreplace({e: names[sympy.E] ** e.args[0] for e in powers} | names), self)
         if not is_plain(value):
-            shown = as_text(expression)
+            shown = as_text(expression).replace("**", "^")
             if not expression.free_symbols:
                 raise NotRational(f"{shown} isn't an algebraic number", hint=TRANSCENDENTAL_HINT)
             said = f"a coefficient that isn't a rational function of {self.variable}: {shown}"

@@ -76,7 +76,11 @@ def in_exponentials(source: Source) -> Parsed | None:
         raise NotRational(said, hint=_HINT)
     right, h = _right_side(parts[3], x, common.powers)
     left = (k**2 * T**2 * a, k**2 * T * a + k * T * b, c)
-    read = read_in(T, (*left, -right), source, taken=k.free_symbols)
+    try:
+        read = read_in(T, (*left, -right), source, taken=k.free_symbols)
+    except NotRational as error:  # its message is in t
+        said = f"a coefficient that isn't a rational function of {as_text(sympy.exp(k * x)).replace('**', '^')}"
+        raise NotRational(said, hint=error.hint) from None
     if read.equation.h is not None:  # numbers such as pi and log(2) are among the factors: as a whole it stays in x
         h = -parts[3]
         read = read_in(T, (*left, sympy.S.Zero), source, taken=k.free_symbols)

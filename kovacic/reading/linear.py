@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -25,6 +26,9 @@ from kovacic.reading.parser import DEEPEST, Comparison
 
 #: Limits on input that SymPy calculates with: it expands powers, and its integers have no limit of their own.
 SYMBOLIC_LIMITS = Limits(text_length=10_000, digits=1000, exponent=1000, bits=10_000)
+
+#: Functions, and powers with symbols in their exponents, that may be nested.
+_MOST_NESTED = 5
 
 LINEAR_HINT = "the equation is a y'' + b y' + c y = f, where a, b, c and f depend on the variable alone"
 
@@ -218,7 +222,7 @@ class LinearArithmetic(Arithmetic):
 
     def symbolic_power(self, base: Any, exponent: Any) -> Any:
         base = self.expression(base)
-        exponent = self.expression(exponent)
+        exponent = self._argument(exponent)
         self._check_exponent(exponent)
         if exponent.is_nonpositive and _is_zero(base):
             raise ZeroDivisionError("0 has no powers with exponent zero or below")
@@ -226,6 +230,13 @@ class LinearArithmetic(Arithmetic):
         if exponent.is_Rational and factor.is_Rational:
             self._check(0, abs(int(exponent.p)) * max(int(factor.p).bit_length(), int(factor.q).bit_length()))
         return self._checked(base**exponent)
+
+    def _argument(self, value: Any) -> Any:
+        """An argument of a function, or an exponent, as a SymPy expression; SymPy's time grows exponentially with the nesting."""
+        expression = self.expression(value)
+        if _height(expression) >= _MOST_NESTED:
+            raise InputError(f"more than {_MOST_NESTED} functions or powers inside of one another")
+        return expression
 
     def _check_exponent(self, exponent: Any) -> None:
         """Refuses numbers as exponents, and as factors of logarithms in exponents, that are too large."""
@@ -243,7 +254,7 @@ class LinearArithmetic(Arithmetic):
 
         if head in RECIPROCALS:
             return self.divide(ONE, self.applied(RECIPROCALS[head], argument))
-        argument = self.expression(argument)
+        argument = self._argument(argument)
         if head == "exp":
             self._check_exponent(argument)
         value = getattr(sympy, FUNCTION_NAMES[head])(argument)
@@ -293,6 +304,13 @@ def differentiations(arguments: Sequence[Any], reader: Any) -> int:
             order += number.numerator - 1
     check_order(order)
     return order
+
+
+@lru_cache(maxsize=1024)
+def _height(expression: Any) -> int:
+    """The number of functions, and powers with symbols in their exponents, that are nested."""
+    is_function = expression.is_Function or (expression.is_Pow and bool(expression.exp.free_symbols))
+    return max(map(_height, expression.args), default=0) + bool(is_function)
 
 
 def _is_zero(expression: Any) -> bool:
