@@ -232,7 +232,7 @@ class LinearArithmetic(Arithmetic):
         return self._checked(base**exponent)
 
     def _argument(self, value: Any) -> Any:
-        """An argument of a function, or an exponent, as a SymPy expression; SymPy's time grows exponentially with the nesting."""
+        """An argument of a function, or an exponent, as a SymPy expression: each function around it may double SymPy's time."""
         expression = self.expression(value)
         if _height(expression) >= _MOST_NESTED:
             raise InputError(f"more than {_MOST_NESTED} functions or powers inside of one another")
