@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from fractions import Fraction
 from itertools import product
+from math import isqrt
 from typing import Any
 
 import flint
@@ -139,6 +140,12 @@ def test_the_path_through_a_complex_pole_is_refused() -> None:
     assert evaluate("2/(x - I)^2", "-2*I", x0=0, y0=-1, dy0="-2*I").contains(-9)
     with pytest.raises(InputError, match="so near that its constants don't tell"):
         evaluate("y'' = y + 1/(x - sqrt(2))", 2, x0=0, y0=1, dy0=0)
+
+
+def test_a_path_that_begins_just_beyond_a_pole_is_no_path_through_it() -> None:
+    """sqrt(2) < x0, by less than balls of 128 bits tell apart."""
+    x0 = Fraction(isqrt(2 << 264) + 1, 1 << 132)
+    assert evaluate("1/(x^2 - 2)", x0 + Fraction(1, 1 << 120), x0=x0, y0=1, dy0=0, digits=3).contains(1)
 
 
 def test_an_imaginary_part_below_the_precision_isnt_lost() -> None:

@@ -370,6 +370,15 @@ def test_a_solution_by_a_series_comes_without_another_one() -> None:
     assert not verify(answer.S, replace(decision, semi_invariant=other.decision.semi_invariant))
 
 
+@pytest.mark.parametrize("text", ["1000001000000/x^2 + 1", "(x^2 - 2)*y'' + 2*x*y' - 1000001000000*y = 0"])
+def test_no_group_is_confirmed_by_a_series_that_may_not_be_the_only_one(text: str) -> None:
+    """exp(x) P and exp(-x) Q solve the first equation, so the group is G_m; the second one's poles aren't rational."""
+    answer = kovacic.solve(text)
+    assert answer.decision.series is not None
+    for family, n in (("borel", None), ("additive", 2)):
+        assert verify(answer.S, answer.decision, claimed(GroupClaim(family, n))).unchecked
+
+
 def test_an_irregular_place_has_no_exponent_difference() -> None:
     """Of such a place the rules say that it is irregular, and nothing of exponents."""
     data = json.loads(kovacic.solve("x").to_json())
