@@ -169,16 +169,16 @@ class FirstOrderAnswer(ProblemAnswer):
     """The answer to an equation of first order, linear or Riccati's, which is stored with its conditions."""
 
     equation: FirstOrderEquation
+    #: w^(1 - n) for a solution of Bernoulli's equation, in symbols that carry the assumptions.
+    power_of_w: Expr | None = None
 
     @property
     def hidden_relations(self) -> tuple[Expr, ...]:
         """u >= 0 for w = u^k, k = 1/(1 - n) an integer, which solves Bernoulli's equation only where w^(1/k) is u."""
-        function, w = self.eq.xreplace(self.known).args
-        n, x = self.equation.power, function.args[0]
-        if n.is_integer or not (1 / (1 - n)).is_integer or w == 0:
+        n = self.equation.power
+        if self.power_of_w is None or n.is_integer or not (1 / (1 - n)).is_integer:
             return ()
-        u = sympy.cancel(w * self.equation.r / (w.diff(x) - self.equation.q * w))  # w^n = (w' - q w)/r, and u = w/w^n
-        return (sympy.GreaterThan(sympy.factor(u), 0, evaluate=False),)
+        return (sympy.GreaterThan(sympy.factor(self.power_of_w), 0, evaluate=False),)
 
 
 @dataclass(frozen=True, repr=False)

@@ -198,7 +198,7 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
     """
     rest = e if found in (oo, OSCILLATING) else e - found
     known = filter(None, _sizes_near(rest, x, place))
-    confirming = (sizes for sizes in known if all(_is_nearer(found, far, near) for far, near in pairwise(sizes)))
+    confirming = (sizes for sizes in known if _is_approached(found, sizes))
     wanted = 2 if (rest.free_symbols | place.point.free_symbols) - {x} else 1
     return len([*islice(confirming, wanted)]) == wanted
 
@@ -218,13 +218,18 @@ def _sizes_near(e: Expr, x: Expr, place: Approach) -> Iterator[list[Any]]:
         yield next((sizes for sizes in stages if None not in sizes), [])
 
 
-def _is_nearer(found: Expr, far: Any, near: Any) -> bool:
-    """True if a size nearer to the point, of e or of its distance from a finite limit, fits the size further away."""
+def _is_approached(found: Expr, sizes: Sequence[Any]) -> bool:
+    """True if the sizes, nearer and nearer, of e or of its distance from a finite limit, fit each other.
+
+    A logarithm grows as much from the second distance to the third as from the first to the second; what rises to a finite
+    limit grows less and less.
+    """
+    far, middle, near = sizes
     if found == oo:
-        return bool(near > far * arb("1.02"))
+        return all(bool(b > a * arb("1.02")) for a, b in pairwise(sizes)) and bool(2 * (near - middle) > middle - far)
     if found == OSCILLATING:
-        return bool(far / 1000 < near < far * 1000)
-    return bool(near < far / arb("1.02")) or bool(near < _NOISE)
+        return all(bool(a / 1000 < b < a * 1000) for a, b in pairwise(sizes))
+    return all(bool(b < a / arb("1.02")) or bool(b < _NOISE) for a, b in pairwise(sizes))
 
 
 def _size_near(e: Expr, x: Expr, place: Approach, t: Expr) -> Any:

@@ -373,7 +373,7 @@ class _Asked:
         (found,) = eqs
         if has_floats(eq, ics):
             found = Eq(found.lhs, with_floats(found.rhs), evaluate=False)
-        return FirstOrderAnswer(found, notices, problem, known=known, exceptional=solved.of_pair)
+        return FirstOrderAnswer(found, notices, problem, solved.power_of_w, known=known, exceptional=solved.of_pair)
 
     def _of_second_order(self, question: Question) -> ProblemAnswer:
         """The steps of the head of this module, after the first."""

@@ -224,12 +224,16 @@ def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
 
 
 class CheckedSolution(NamedTuple):
-    """w(x), or x(t) and y(t), checked, with notices and zeros of denominators; `of_pair`: see `ProblemAnswer.exceptional`."""
+    """w(x), or x(t) and y(t), checked, with notices and zeros of denominators; `of_pair`: see `ProblemAnswer.exceptional`.
+
+    `power_of_w` is w^(1 - n) for a solution of Bernoulli's equation.
+    """
 
     values: tuple[Expr, ...]
     notices: list[str]
     zeros: list[Expr]
     of_pair: tuple[Expr, ...] = ()
+    power_of_w: Expr | None = None
 
 
 def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) -> CheckedSolution:
@@ -381,21 +385,28 @@ def _without_value(a: Expr) -> UnsatisfiableConditions:
     return UnsatisfiableConditions(f"there is no solution with this value at {a}, a singular point of the equation")
 
 
-def check_first_order(equation: FirstOrderEquation, w: Expr) -> list[str]:
+def check_first_order(equation: FirstOrderEquation, w: Expr, power_of_w: Expr | None = None) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` if w is wrong.
 
-    The claim is w' - (q + r w^(n - 1)) w = p, where w^(n - 1) is u^(k (n - 1)) for w = u^k: it holds for u > 0.
+    The claim is w' - (q + r w^(n - 1)) w = p.  For Bernoulli's equation, u = w^(1 - n) is given, and w^(n - 1) is 1/u, since
+    a power of w may be on another branch; then the claim is also that w^(1 - n) = u, or w = u^(1/(1 - n)) if that has no branches.
 
     Raises `InputError` if w doesn't have the given value at a singular point, where there may be no such solution.
     """
-    u, k = w.as_base_exp()
-    rate = equation.q + equation.r * u ** cancel(k * (equation.power - 1))
-    coefficients = (_ZERO, Integer(1), -rate, equation.p)
+    x, m, reading = equation.x, 1 - equation.power, equation.reading
+    claims = []
+    if power_of_w is None:
+        rate = equation.q + equation.r * w**-m
+    else:
+        rate = equation.q + equation.r / power_of_w
+        value, same = (w**m, power_of_w) if m.is_integer else (w, power_of_w ** (1 / m))
+        claims.append(SolutionClaim(x, value, (_ZERO, _ZERO, Integer(1), same), (), reading))
     try:
-        claim = SolutionClaim(equation.x, w, coefficients, equation.conditions, equation.reading)
+        claims.append(SolutionClaim(x, w, (_ZERO, Integer(1), -rate, equation.p), equation.conditions, reading))
         start, _ = equation.value
-        is_limit = not equation.is_regular and not is_finite(w.subs(equation.x, start))
-        return claim.check(limits={start: Approach(start)} if is_limit else {})
+        is_limit = not equation.is_regular and not is_finite(w.subs(x, start))
+        limits = {start: Approach(start)} if is_limit else {}
+        return [*dict.fromkeys(said for claim in claims for said in claim.check(limits=limits))]
     except VerificationFailed:
         if equation.is_regular:
             raise

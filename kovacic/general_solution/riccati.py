@@ -85,8 +85,10 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> CheckedSolut
     exceptions: tuple[Expr, ...] = ()
     zeros: list[Expr] = []
     notices: list[str] = []
+    power_of_w = None
     if equation.power != 2 or (equation.p == 0 and equation.is_regular):
-        forms = [_of_bernoulli(equation)]
+        w, power_of_w = _of_bernoulli(equation)
+        forms = [w]
         zeros = zeros_of(forms[0], x, equation.entries)
         if start is None and equation.power.is_odd:
             notices.append(f"-{equation.function} is a solution, too")
@@ -109,26 +111,26 @@ def solved_riccati(equation: FirstOrderEquation, solver: Solver) -> CheckedSolut
     w = shortest(forms).xreplace(dict.fromkeys(constants, equation.constant()))
     if len(constants) < 2:
         w = in_book_form(w, x)
-    return CheckedSolution((w,), notices + check_first_order(equation, w), zeros, exceptions)
+    notices += check_first_order(equation, w, power_of_w)
+    return CheckedSolution((w,), notices, zeros, exceptions, power_of_w)
 
 
-def _of_bernoulli(equation: FirstOrderEquation) -> Expr:
-    """w for w' = q w + r w^n, by u = w^(1 - n); w = 0 through 0, for n > 1."""
+def _of_bernoulli(equation: FirstOrderEquation) -> tuple[Expr, Expr | None]:
+    """w for w' = q w + r w^n, and u = w^(1 - n), by which it is found; w = 0 through 0, for n > 1."""
     m = 1 - equation.power
     start, v = equation.value
     if v == 0:
         if not m.is_negative:
             raise NotImplementedError("undecided: more than one solution may have the value 0")
-        return sympy.S.Zero
+        return sympy.S.Zero, None
     if start is not None and m.is_integer is False and is_seen_negative(v):
         said = f"there is no real solution with {equation.conditions[0].text}"
         raise UnsatisfiableConditions(f"{said}: ({v})^({equation.power}) isn't real")
     (u,) = solved_linear(equation.of_power).values
     if start is None:
-        return u ** (1 / m)
-    u /= v**m
-    u = as_quotient(u)  # which doesn't divide by v
-    return v * powsimp(u) ** (1 / m)  # the branch with the sign of v
+        return u ** (1 / m), u
+    u = powsimp(as_quotient(u / v**m))  # which doesn't divide by v
+    return v * u ** (1 / m), v**m * u  # the branch with the sign of v
 
 
 def _solved_linear(

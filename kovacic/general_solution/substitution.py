@@ -13,6 +13,7 @@ from typing import Any
 
 import sympy
 from sympy import Add, Mul, hyper
+from sympy.functions.special.bessel import BesselBase
 from sympy.simplify.fu import TR8
 
 from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric, sign_of_root
@@ -21,6 +22,8 @@ from kovacic.limits import check_time
 Expr = Any  # SymPy publishes no types
 #: Mathieu's odd function, and the slope of his even one, which SymPy doesn't evaluate at 0.
 _ODD = (sympy.mathieus, sympy.mathieucprime)
+#: Functions that SymPy leaves as they are at 0, where they may have no value.
+_SINGULAR_AT_ZERO = (BesselBase, sympy.uppergamma, sympy.expint)
 #: What isn't a value.
 _WITHOUT_VALUE = {sympy.nan, sympy.zoo, sympy.oo, -sympy.oo}
 
@@ -44,7 +47,9 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     powers = (power for power in value.atoms(sympy.Pow) if power.base == 0 and not power.exp.is_nonnegative)
     zeros = {power: sign_of_root(power.exp) for power in powers}
     value = value.xreplace(dict.fromkeys(zeros, sympy.S.Zero))
-    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, value.atoms(hyper)))
+    # a factor that is zero hides them in the value
+    functions = (f.subs(x, point) for f in expression.atoms(hyper, *_SINGULAR_AT_ZERO) if f.has(x))
+    is_known = {1} >= {*zeros.values()} and not any(map(_may_diverge, functions))
     return value if is_known and _WITHOUT_VALUE.isdisjoint(value.atoms()) else None
 
 
@@ -69,7 +74,12 @@ def slope(expression: Expr, x: Expr) -> Expr:
 
 
 def _may_diverge(f: Expr) -> bool:
-    """True for a hypergeometric series at its singular point 1, unless it is seen to converge there, or to end."""
+    """True for a function at its singular point, unless it is seen to be finite there: it is a number, or a series that
+    converges at 1, or ends."""
+    if not isinstance(f, hyper):
+        return isinstance(f, _SINGULAR_AT_ZERO) and f.args[-1] == 0
+    if f.argument.has(*_WITHOUT_VALUE):
+        return True
     excess = Add(*f.bq) - Add(*f.ap)
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in f.ap)
     return f.argument == 1 and len(f.ap) == len(f.bq) + 1 and not (excess.is_positive or is_polynomial)

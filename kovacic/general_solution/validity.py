@@ -112,14 +112,15 @@ def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collec
     """Shorter relations equivalent to one, given others (`beside`) and what isn't zero, for real roots and powers.
 
     Factors of a known sign are left out: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0,
-    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; x - a != 0 for a - x != 0; u > 0 for u >= 0 beside u != 0,
+    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; k != 0 and x - a != 0 for k*(a - x) != 0; u > 0 for u >= 0 beside u != 0,
     also by factors, and h >= 0 for h*k >= 0 beside k > 0.
     """
     if isinstance(relation, BooleanAtom):
         return [relation]
     u = relation.lhs
     if isinstance(relation, Ne):
-        return [Ne(-u, 0) if u.could_extract_minus_sign() else relation]
+        factors = [f for f in Mul.make_args(u) if not f.is_number]
+        return [Ne(-f if f.could_extract_minus_sign() else f, 0) for f in factors]
     u = _as_a_product(u)
     is_strict = isinstance(relation, StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
     positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, GreaterThan)}

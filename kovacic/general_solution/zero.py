@@ -19,6 +19,7 @@ from typing import Any
 import sympy
 from flint import acb, arb, fmpq
 from sympy import Dummy, Poly, expand
+from sympy.functions.special.bessel import BesselBase
 
 from kovacic.algebra.precision import working_digits
 from kovacic.closed_form.check import DIGITS, letter_samples
@@ -178,6 +179,8 @@ def agree(value: Expr, other: Expr) -> bool:
 
 def is_identically_zero(value: Expr) -> bool:
     """True if it is provably zero: a sum of monomials in exponentials, waves and logarithms, or a number made of roots."""
+    elementary = {f: sympy.expand_func(f) for f in value.atoms(BesselBase)}  # if the order is half an odd integer
+    value = value.xreplace(elementary)
     numerator = sympy.numer(sympy.together(prepared_integrand(value)))  # a sum of waves, as sin(a) cos(b) isn't
     if in_single_waves(numerator) == 0:
         return True

@@ -344,6 +344,13 @@ def test_limits(left: Any, ics: dict[Any, Any], expected: Any) -> None:
         ("r^2*y'' + r*y' - m^2*y = 0, y(0) = bounded", None, {"m": "positive"}, "C1*r**m"),
         ("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", "y(1)=1", {"n": "natural"}, "legendre(n, x)"),
         ("x^2*y'' + 2*x*y' + (x^2 - n*(n+1))*y = 0", "y(0)=bounded", {"n": "natural"}, "C1*jn(n, x)"),
+        (
+            "(1-x^2)*y'' - 2*x*y' + 2*a*(2*a+1)*y = 0",
+            "y(1)=bounded, y(0)=1",
+            {"a": "positive"},
+            "-2*x*gamma(1/2 - a)*gamma(a + 1)*hyper((1/2 - a, a + 1), (3/2,), x**2)/(gamma(-a)*gamma(a + 1/2))"
+            " + hyper((-a, a + 1/2), (1/2,), x**2)",
+        ),
         # U at infinity in an imaginary direction: Coulomb's regular wave function, eta = 1.
         ("y'' + (1 - 2/x)*y = 0", "y(0)=0, y'(0)=1", {}, "x*exp(-I*x)*hyper((1 - I,), (2,), 2*I*x)"),
         # The signs of both roots of a quadratic equation.

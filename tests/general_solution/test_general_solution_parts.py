@@ -151,6 +151,8 @@ def test_limits_that_are_not_known() -> None:
             limit_at(e, x, Approach(sympy.Integer(0)))
     right = limit_at((1 - sympy.besselj(0, x)) / x**2, x, Approach(sympy.Integer(0)))  # oo, by SymPy's leading terms
     assert right == Rational(1, 4)
+    rising = 1 / (x * sympy.hyper((Rational(4, 3), Rational(13, 6)), (Rational(5, 2),), 1 - x))  # to a finite limit
+    assert limit_at(rising, x, Approach(sympy.Integer(0))).is_finite
 
 
 @pytest.mark.long
@@ -158,6 +160,7 @@ def test_when_a_constant_is_zero() -> None:
     z = Symbol("z")
     always = [
         sin(n * pi),
+        sympy.jn(0, a) / sympy.jn(0, 1) - sin(a) / (a * sin(1)),
         sin(z) ** 2 + cos(z) ** 2 - 1,
         log(6) - log(2) - log(3),
         sympy.sympify("sqrt(2)+sqrt(3)-sqrt(5+2*sqrt(6))"),
