@@ -388,8 +388,8 @@ def _without_value(a: Expr) -> UnsatisfiableConditions:
 def check_first_order(equation: FirstOrderEquation, w: Expr, power_of_w: Expr | None = None) -> list[str]:
     """One sentence per check that could not be carried out.  Raises `VerificationFailed` if w is wrong.
 
-    The claim is w' - (q + r w^(n - 1)) w = p.  For Bernoulli's equation, u = w^(1 - n) is given, and w^(n - 1) is 1/u, since
-    a power of w may be on another branch; then the claim is also that w^(1 - n) = u, or w = u^(1/(1 - n)) if that has no branches.
+    The claim is w' - (q + r w^(n - 1)) w = p.  For Bernoulli's equation u = w^(1 - n) is given, and w^(n - 1) is 1/u, since a
+    power of w may be on another branch; then the claim is also that w^(1 - n) = u, or w = u^(1/(1 - n)).
 
     Raises `InputError` if w doesn't have the given value at a singular point, where there may be no such solution.
     """

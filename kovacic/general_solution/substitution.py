@@ -74,8 +74,7 @@ def slope(expression: Expr, x: Expr) -> Expr:
 
 
 def _may_diverge(f: Expr) -> bool:
-    """True for a function at its singular point, unless it is seen to be finite there: it is a number, or a series that
-    converges at 1, or ends."""
+    """True for a function at its singular point, unless it is seen to be finite: a series that converges at 1, or ends."""
     if not isinstance(f, hyper):
         return isinstance(f, _SINGULAR_AT_ZERO) and f.args[-1] == 0
     if f.argument.has(*_WITHOUT_VALUE):

@@ -112,8 +112,8 @@ def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collec
     """Shorter relations equivalent to one, given others (`beside`) and what isn't zero, for real roots and powers.
 
     Factors of a known sign are left out: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0,
-    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; k != 0 and x - a != 0 for k*(a - x) != 0; u > 0 for u >= 0 beside u != 0,
-    also by factors, and h >= 0 for h*k >= 0 beside k > 0.
+    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; k != 0 and x - a != 0 for k*(a - x) != 0;
+    u > 0 for u >= 0 beside u != 0, also by factors, and h >= 0 for h*k >= 0 beside k > 0.
     """
     if isinstance(relation, BooleanAtom):
         return [relation]
