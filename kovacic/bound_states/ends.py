@@ -184,7 +184,11 @@ def _unbounded(end: EndBehaviour, pole: int, strength: Any, question: SpectralPr
     end = replace(end, oscillates=sign == -1, vanishes=sign == 1)
     if sign is None and is_fast:
         said = f"one solution decays where {question.shown(sympy.factor(question.kinetic * strength))} > 0"
-        end = replace(end, oscillates=True, circle=sympy.Lt(strength, 0), other=sympy.Eq(strength, 0))
+        end = replace(end, other=sympy.Eq(strength, 0))
+        if question.signs.is_nonnegative(strength):  # a^2
+            end = replace(end, vanishes=True)
+        else:
+            end = replace(end, oscillates=True, circle=sympy.Lt(strength, 0))
     else:
         said = _UNBOUNDED[sign, is_fast]
         end = replace(end, circle=sympy.true if sign == -1 and is_fast else sympy.false)

@@ -218,7 +218,7 @@ def test_command_follows_every_start(run, arguments):
 
 
 def test_long_motions_are_sampled_in_every_oscillation(run):
-    """The reaction vanishes first at t = 0.77...; it is found up to a share of a period, not of the time."""
+    """The reaction vanishes first at t = 0.78; that is found up to a share of a period, not of the time."""
     start = (*_BODY, "--sphere", "3", "--start", "5/2", "2", "0", "0")
     short, long = (simulated(run, *start, "--time", time) for time in ("1", "150"))
     assert 0 < long["pulled_from"] - short["pulled_from"] + long["period"] / 1200 < long["period"] / 60
