@@ -766,7 +766,9 @@ def test_a_mistyped_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]
     assert run(["slove", "x"]) == 2
     assert "did you mean solve?" in capsys.readouterr().err
     assert run(["x^2+3"]) == 2
-    assert "the commands are solve, " in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "the commands are solve, " in said
+    assert "kovacic solve 'x^2+3'" in said
 
 
 @pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)], ids=str)
