@@ -71,7 +71,7 @@ class LazyGroup(click.Group):
             from difflib import get_close_matches
 
             near = get_close_matches(arguments[0], COMMANDS, n=1, cutoff=0.5)
-            known = f"the commands are {', '.join(COMMANDS)}; an equation follows one: kovacic solve '{arguments[0]}'"
+            known = f'the commands are {", ".join(COMMANDS)}; an equation follows one: kovacic solve "{arguments[0]}"'
             hint = f"did you mean {near[0]}?" if near else known
             context.fail(f"no such command: {arguments[0]} ({hint})")
         return super().resolve_command(context, arguments)

@@ -768,7 +768,7 @@ def test_a_mistyped_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]
     assert run(["x^2+3"]) == 2
     said = capsys.readouterr().err
     assert "the commands are solve, " in said
-    assert "kovacic solve 'x^2+3'" in said
+    assert 'kovacic solve "x^2+3"' in said
 
 
 @pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)], ids=str)
