@@ -98,6 +98,11 @@ class Signs:
             factors = (sympy.expand(part) if part.is_Add else part for part in sympy.Mul.make_args(factored))
             answers = (getattr(form, question) for form in (sympy.Mul(*factors, evaluate=False), factored))
             found = next((answer for answer in answers if answer is not None), None)
+            letters = [*factored.free_symbols]
+            if found is None and len(letters) == 1 and letters[0].is_real and factored.is_polynomial(*letters):
+                poly = sympy.Poly(factored, *letters)
+                if (poly.domain.is_QQ or poly.domain.is_ZZ) and not poly.count_roots():  # g^2 + g + 1
+                    found = poly.eval(0) > 0
             if found is not None:
                 return bool(found)
         return None
