@@ -101,15 +101,21 @@ def solve(
 
 def _assignments(answer: Solution, language: str) -> Iterator[str]:
     """The equation and the verdict as a comment, and any two solutions, in Mathematica, Maple or Julia."""
-    from kovacic.views.sentences import OF_HOMOGENEOUS, is_inhomogeneous
-    from kovacic.writing.code import CODE_LANGUAGES, as_code
+    import sympy
 
-    yield CODE_LANGUAGES[language].comment.format(answer)
-    found = answer.solutions or answer.special
+    from kovacic.views.sentences import OF_HOMOGENEOUS, is_inhomogeneous
+    from kovacic.writing.code import CODE_LANGUAGES, as_code, letters_to_rename
+
+    comment, assignment = CODE_LANGUAGES[language].comment, CODE_LANGUAGES[language].assignment
+    yield comment.format(answer)
+    found = sympy.Tuple(*(answer.solutions or answer.special or ()))
     if found and is_inhomogeneous(answer):
-        yield CODE_LANGUAGES[language].comment.format(OF_HOMOGENEOUS)
-    for k, y in enumerate(found, start=1):
-        yield CODE_LANGUAGES[language].assignment.format(f"y{k}", as_code(y, language))
+        yield comment.format(OF_HOMOGENEOUS)
+    others = letters_to_rename(found, language)
+    for symbol, other in others.items():
+        yield comment.format(f"{other} stands for {symbol}")
+    for k, y in enumerate(found.xreplace(others), start=1):
+        yield assignment.format(f"y{k}", as_code(y, language))
 
 
 def _print_refusal(text: str, error: KovacicError) -> None:

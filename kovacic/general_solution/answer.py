@@ -141,7 +141,13 @@ class SecondOrderAnswer(ProblemAnswer):
         # Where one constant stays free, the solution that it multiplies vanishes with the Wronskian, as sin(k x) at k = 0.
         value = self.eq.xreplace(self.known).rhs
         members = sympy.Tuple(self.basis.y1, self.basis.y2).atoms(sympy.Function)
-        found = map(self.question.own, self.basis.undefined) if members & value.atoms(sympy.Function) else ()
+        left = members & value.atoms(sympy.Function)
+        found = [*map(self.question.own, self.basis.undefined)] if left else []
+        if found and any(
+            isinstance(f, sympy.hyper) for f in members - left
+        ):  # then where a series that is left has a pole
+            below = (self.question.own(b) for f in left for b in getattr(f, "bq", ()))
+            found = [zero for b in below if ZeroSet(zero := 1 / sympy.gamma(b))]
         solution = self.question.own(value)
         free = [solution.diff(name) for name in self.names if solution.has(name)]
 

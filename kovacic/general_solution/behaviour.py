@@ -48,6 +48,8 @@ _STAGES = (
     (Rational(1, 100), Rational(1, 1600), Rational(1, 50000)),
     (Rational(1, 9), Rational(1, 20), Rational(1, 41)),
 )
+#: Distances for a function that is unbounded at a finite point: a logarithm and a constant may cancel at larger ones.
+_NEAREST = (Rational(1, 10**4), Rational(1, 10**8), Rational(1, 10**16))
 #: Each distance stands for three, times these factors, since a wave may be small at one of them.
 _AROUND = (Rational(1), Rational(8, 7), Rational(17, 13))
 _LIMIT_DIGITS = 60
@@ -197,7 +199,8 @@ def _is_confirmed(found: Expr, e: Expr, x: Expr, place: Approach) -> bool:
     Not for all of them: what holds for generic letters needn't for small integers, as where 1/gamma(-m) is 0.
     """
     rest = e if found in (oo, OSCILLATING) else e - found
-    known = filter(None, _sizes_near(rest, x, place))
+    stages = (_NEAREST, *_STAGES) if found == oo and not place.is_infinite else _STAGES
+    known = filter(None, _sizes_near(rest, x, place, stages))
     confirming = (sizes for sizes in known if _is_approached(found, sizes))
     wanted = 2 if (rest.free_symbols | place.point.free_symbols) - {x} else 1
     return len([*islice(confirming, wanted)]) == wanted
@@ -209,13 +212,13 @@ def is_refuted(value: Expr | None, y: Expr, x: Expr, place: Approach) -> bool:
     return bool(sizes) and all(bool(near > far * 2) for far, near in pairwise(sizes))
 
 
-def _sizes_near(e: Expr, x: Expr, place: Approach) -> Iterator[list[Any]]:
+def _sizes_near(e: Expr, x: Expr, place: Approach, stages: Sequence[Any] = _STAGES) -> Iterator[list[Any]]:
     """The sizes at three distances, from the largest on, for several values of the letters, or [] if the values are lost."""
     for k, sample in enumerate(generic_samples((e.free_symbols | place.point.free_symbols) - {x})):
         letters = opposite(sample) if k % 2 else sample  # of both signs if none is known
         here = replace(place, point=place.point.xreplace(letters))
-        stages = ([_size_near(e.xreplace(letters), x, here, t) for t in stage] for stage in _STAGES)
-        yield next((sizes for sizes in stages if None not in sizes), [])
+        known = ([_size_near(e.xreplace(letters), x, here, t) for t in stage] for stage in stages)
+        yield next((sizes for sizes in known if None not in sizes), [])
 
 
 def _is_approached(found: Expr, sizes: Sequence[Any]) -> bool:

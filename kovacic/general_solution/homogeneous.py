@@ -34,6 +34,7 @@ from kovacic.special.choice import chosen_form
 from kovacic.special.mathieu import mathieu
 from kovacic.special.search import BySign, by_sign, special_functions
 from kovacic.special.writer import Wanted, WrittenPair
+from kovacic.writing.formula import caret
 
 Expr = Any  # SymPy publishes no types
 
@@ -117,9 +118,14 @@ def _in_special_functions(question: Question, solution: Solution, budget: Budget
     """Special functions, analytic at ordinary points; by the sign of an integer if that is needed, or gives shorter ones."""
     is_positive = all(e.is_positive for e in (question.function.args[0], *question.points))
     has_values = bool(question.conditions) and not limit_points(question)  # all at ordinary points
-    places = _real_places(question)
     request = Wanted(
-        solution.S, solution.gauge, solution.variable, question.parameters, joined=not is_positive, places=places
+        solution.S,
+        solution.gauge,
+        solution.variable,
+        question.parameters,
+        joined=not is_positive,
+        places=_real_places(question),
+        centre=_centre(question),
     )
     found = special_functions(request, budget)
     pair = found.pair
@@ -155,6 +161,15 @@ def _real_places(question: Question) -> tuple[Fraction, ...]:
     return real_values(equation)
 
 
+def _centre(question: Question) -> Fraction | None:
+    """The value of the equation's variable at the singular point at which a limit is given, if it is rational."""
+    equation = question.equation
+    points = [point for point in limit_points(question) if not point.is_infinite]
+    t = function_of_x(equation) if equation.change else question.x
+    values = (t.subs(user_variable(equation) if equation.change else question.x, point) for point in points)
+    return next((to_fraction(value) for value in values if value.is_Rational), None)
+
+
 def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None:
     """The pair if it is defined and independent for all values of the letters, like one about an ordinary point; else None."""
     if pair is None or pair.undefined or pair.wronskian is None:
@@ -179,7 +194,7 @@ def no_solution(solution: Solution, known: Assumptions = NOTHING_ASSUMED) -> str
         return f"undecided: {solution.reason}"
     names = ", ".join(parameters_of(solution.S.field))
     said = f"{names and f'for generic {names} '}there is no Liouvillian solution, and that is proven: the differential Galois"
-    said += f" group of the normal form y'' = ({solution.S.to_str(solution.variable)}) y is SL2(C)"
+    said += f" group of the normal form y'' = ({caret(solution.S.to_str(solution.variable))}) y is SL2(C)"
     if not names:
         return said
     try:

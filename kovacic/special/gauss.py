@@ -114,11 +114,17 @@ class Gauss(StandardEquation):
     def written(self, writer: Writer, f: RatFunc) -> WrittenPair | None:
         forms = _GaussForm.of(self, writer, f).arranged
         first = forms[0]
+        signed_forms = [signed for form in forms for signed in form.signs]
         if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
-            signed_forms = [signed for form in forms for signed in form.signs]
             polynomial = next((form for form in signed_forms if form.has_polynomial), None)
             if polynomial is not None:
                 return _with_polynomial(polynomial)
+        reducible = any(writer.is_integer(form.degree) for form in first.signs)
+        central = next((form for form in forms if form.is_central and form.is_between), None)
+        if central is not None and not reducible:
+            is_log = writer.is_integer(central.alpha)
+            return _at_two_points(central.regular, central.swapped.regular) if is_log else _at_one_point(central)
+        if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
             even = next((form for form in signed_forms if form.alpha == form.beta and form.is_between), None)
             if even is not None:
                 return _by_parity(even)  # independent for all values of the letters
@@ -127,7 +133,7 @@ class Gauss(StandardEquation):
                 if form.is_between and writer.has_letters(form.beta) and has_integers:
                     decaying = form.swapped if writer.is_negative(form.beta) else form.swapped.turned
                     return _at_two_points(form.regular, decaying)
-        if any(writer.is_integer(form.degree) for form in first.signs):
+        if reducible:
             return _reducible_pair(writer, forms)
         if not writer.is_integer(first.alpha):
             return _at_one_point(first)
@@ -337,6 +343,11 @@ class _GaussForm:
         return any(value is None or 0 < value < 1 for value in self._values)
 
     @property
+    def is_central(self) -> bool:
+        """True if f is 0 at the singular point at which limits are given."""
+        return self.writer.centre is not None and self._at(self.writer.centre) == 0
+
+    @property
     def cost(self) -> tuple[bool | int | str, ...]:
         """Order of preference: off the cut, polynomials, no integer difference at 0 (unless it is that at 1), short f.
 
@@ -375,7 +386,9 @@ def _named_function(form: _GaussForm) -> tuple[Expr, Expr]:
     if c == 1 and sympy.expand(a + b) == 1:
         middle = sympy.expand(half - a)  # P_nu is P_(-1-nu)
         degree = (-middle if middle.could_extract_minus_sign() else middle) - half
-        P = sympy.legendre(sympy.expand(degree), sympy.expand(1 - 2 * z))
+        degree = sympy.expand(degree)
+        # SymPy takes (-1)^nu P_nu(x) for P_nu(-x) if nu isn't a rational number
+        P = sympy.legendre(degree, sympy.expand(1 - 2 * z)) if degree.is_integer or degree.is_Rational else None
         if isinstance(P, sympy.legendre):
             return sympy.S.One, P
     return sympy.S.One, writer.hypergeometric(top, (1 - form.alpha,), z)

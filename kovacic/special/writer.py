@@ -93,7 +93,7 @@ class Wanted:
     `symbols` maps names of parameters to SymPy's symbols, in which solutions are written, and whose assumptions are used: with
     a natural n, Hermite's equation has `hermite(n, x)`.  With `joined`, solutions are analytic at ordinary points where the
     argument of Bessel's functions is zero: series 0F1 instead of these.  Solutions are real at one of the `places`, values of
-    the variable, if possible.
+    the variable, if possible, and those of Gauss' equation are series at the `centre`, a singular point.
     """
 
     S: RatFunc
@@ -102,6 +102,7 @@ class Wanted:
     symbols: Mapping[str, Any] = field(default_factory=dict)
     joined: bool = False
     places: Sequence[Fraction] = ()
+    centre: Fraction | None = None
 
 
 class Combined(Protocol):
@@ -130,6 +131,7 @@ class Writer:
         self.wanted = wanted
         self.gauge = wanted.gauge
         self.places = wanted.places
+        self.centre = wanted.centre
         self.singular = wanted.S.den if wanted.joined else None
         self.transform = transform
         x = sympy.Symbol(wanted.variable)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import count
 from typing import Any
 
 import sympy
@@ -134,11 +135,24 @@ def as_code(expression: Expr, language: str) -> str:
     if chosen is None:
         raise InputError(f"unknown language {language!r}", hint=f"available: {', '.join(CODE_LANGUAGES)}")
     expression = sympy.sympify(expression, strict=True)
-    for name in sorted(symbol.name for symbol in expression.free_symbols):
-        is_pattern = "_" in name and language == "mathematica"
-        if is_pattern or name in chosen.taken.split():
-            raise InputError(f"{name} can't be the name of a letter in {chosen.name}", hint="rename it with subs")
+    for symbol in letters_to_rename(expression, language):
+        raise InputError(f"{symbol.name} can't be the name of a letter in {chosen.name}", hint="rename it with subs")
     return str(_printer(chosen).doprint(expression))
+
+
+def letters_to_rename(expression: Expr, language: str) -> dict[Expr, Expr]:
+    """New letters for those whose names mean something else in the language: omega0 for omega_0 and E0 for E in Mathematica."""
+    letters = sorted(expression.free_symbols, key=str)
+    names, taken = {symbol.name for symbol in letters}, CODE_LANGUAGES[language].taken.split()
+    found = {}
+    for symbol in letters:
+        is_pattern = "_" in symbol.name and language == "mathematica"
+        if is_pattern or symbol.name in taken:
+            short = symbol.name.replace("_", "") if is_pattern else f"{symbol.name}0"
+            name = next(name for k in count() if (name := short + "0" * k) not in {*names, *taken})
+            names.add(name)
+            found[symbol] = sympy.Symbol(name)
+    return found
 
 
 def _printer(language: _Language) -> Any:

@@ -148,6 +148,9 @@ def test_solutions_as_code(capsys: pytest.CaptureFixture[str]) -> None:
         "y1 := AiryAi(x);",
         "y2 := AiryBi(x);",
     ]
+    assert run(["solve", "--as", "mathematica", "y'' + E*E0*k_1*y = 0"]) == 0  # letters that mean something else there
+    renamed = ["(* E00 stands for E *)", "(* k1 stands for k_1 *)", "y1 = Cos[x*(E0*E00*k1)^(1/2)];"]
+    assert capsys.readouterr().out.splitlines()[1:4] == renamed
     assert run(["solve", "--as", "julia", "y'' = y + x"]) == 0
     assert capsys.readouterr().out.splitlines()[1] == "# two solutions of the homogeneous equation"
 

@@ -373,6 +373,12 @@ def test_at_least_zero_beside_not_zero_is_more_than_zero(equation: str, needed: 
     assert len(found.exceptions) > needed.count("!=")  # where they are zero another formula holds
 
 
+def test_poles_of_the_solution_that_values_exclude_are_no_exceptions() -> None:
+    """1F1(1/3; k + 2; x) is defined for each k > 0, and x^(-k-1) 1F1(-k - 2/3; -k; x) isn't."""
+    found = kovacic.answer_to("x*y'' + (2+k-x)*y' - y/3 = 0", ics="y(0)=1", assume={"k": "positive"})
+    assert not found.validity
+
+
 @pytest.mark.long
 def test_equal_roots_are_written_alike() -> None:
     """An oscillating circuit at rest: sqrt(C*(4*L - C*R^2)) beside sqrt(-C*(C*R^2 - 4*L)) before."""
