@@ -162,12 +162,15 @@ def _real_places(question: Question) -> tuple[Fraction, ...]:
 
 
 def _centre(question: Question) -> Fraction | None:
-    """The value of the equation's variable at the singular point at which a limit is given, if it is rational."""
+    """The value of the equation's variable at the singular point, if it is rational, at which the only limit is given."""
     equation = question.equation
-    points = [point for point in limit_points(question) if not point.is_infinite]
-    t = function_of_x(equation) if equation.change else question.x
-    values = (t.subs(user_variable(equation) if equation.change else question.x, point) for point in points)
-    return next((to_fraction(value) for value in values if value.is_Rational), None)
+    points = [*limit_points(question)]
+    if len(points) != 1 or points[0].is_infinite:
+        return None
+    value = points[0]
+    if equation.change is not None:
+        value = function_of_x(equation).subs(user_variable(equation), value)
+    return to_fraction(value) if value.is_Rational else None
 
 
 def _without_exceptions(pair: WrittenPair | None, x: Expr) -> WrittenPair | None:

@@ -185,8 +185,20 @@ def solved_system(given: LinearSystem, solver: Solver) -> CheckedSolution:
     x, y = (_with_constants_apart(e, renamed.values(), t) for e in pair.xreplace(renamed))
     found = zeros_of(Tuple(x, y), t, system.entries, exceptions)
     found += [zero for zero in zeros if not {*ZeroSet(zero).factors} <= {*found}]
-    notices += check_first_order(without_values.alone(y), x) + check_first_order(without_values.swapped.alone(x), y)
+    plain_x, plain_y = map(_with_plain_integrals, (x, y))
+    notices += check_first_order(without_values.alone(plain_y), plain_x)
+    notices += check_first_order(without_values.swapped.alone(plain_x), plain_y)
     return CheckedSolution((y, x) if is_swapped else (x, y), notices, found, tuple(exceptions))
+
+
+def _with_plain_integrals(e: Expr) -> Expr:
+    """Integrals of sums term by term, without constant factors: those in x and in y have the same constants then."""
+
+    def by_terms(integral: Expr) -> Expr:
+        terms = Add.make_args(sympy.expand(integral.function))
+        return Add(*(sympy.factor_terms(sympy.Integral(term, *integral.limits)) for term in terms))
+
+    return e.replace(lambda u: isinstance(u, sympy.Integral), by_terms)
 
 
 def _with_constants_apart(value: Expr, constants: Collection[Expr], t: Expr) -> Expr:

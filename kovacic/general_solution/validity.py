@@ -119,7 +119,8 @@ def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collec
         return [relation]
     u = relation.lhs
     if isinstance(relation, Ne):
-        factors = [f for f in Mul.make_args(u) if not f.is_number]
+        powers = (f.as_base_exp() for f in Mul.make_args(u) if not f.is_number)
+        factors = [base if exponent.is_positive else base**exponent for base, exponent in powers]
         return [Ne(-f if f.could_extract_minus_sign() else f, 0) for f in factors]
     u = _as_a_product(u)
     is_strict = isinstance(relation, StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}

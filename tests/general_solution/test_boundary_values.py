@@ -391,6 +391,8 @@ def test_limits_that_cannot_be() -> None:
     ):
         with pytest.raises(kovacic.UnsatisfiableConditions, match="no solution"):
             dsolve(text, ics=values)
+    with pytest.raises(kovacic.UnsatisfiableConditions, match="unless"):  # P_n is bounded at -1 for an integer n
+        dsolve("(1-x^2)*y'' - 2*x*y' + n*(n+1)*y = 0", ics="y(1)=1, y(-1)=bounded", assume={"n": "positive"})
     w = Symbol("w", real=True)
     with pytest.raises(NotImplementedError, match=r"the limit of exp\(w\*x\) isn't known"):
         dsolve(D2 - w**2 * D0, ics={y(oo): 0, y(0): 1})
