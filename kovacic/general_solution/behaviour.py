@@ -122,6 +122,13 @@ def _limit_candidates(e: Expr, x: Expr, place: Approach, t: Expr) -> Iterator[Ex
     yield _classified(_by_sympy(leading, t))
 
 
+def zeros_of_leading_term(e: Expr, x: Expr, place: Approach) -> set[Expr]:
+    """1/gamma(u) in leading terms: where one is zero, what is unbounded for generic letters may be bounded."""
+    t = sympy.Dummy("s", positive=True)
+    powers = _with_leading_terms(e.xreplace({x: place.in_terms_of(t)}), t).atoms(sympy.Pow)
+    return {1 / p.base for p in powers if isinstance(p.base, gamma) and p.exp.is_negative and p.free_symbols}
+
+
 def _quotient_of_analytic_functions(e: Expr, x: Expr, point: Expr) -> Expr | None:
     """The limit by the first derivatives of numerator and denominator that aren't 0 (L'Hospital); None for other functions."""
     above, below = sympy.fraction(sympy.together(e))

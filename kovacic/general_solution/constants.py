@@ -28,7 +28,7 @@ from sympy.simplify.fu import TR2i
 
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
-from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at
+from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at, zeros_of_leading_term
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import finite_value, in_single_waves, size
@@ -240,7 +240,7 @@ def constants_of(
             rows += of_limit
             exceptional |= zeros
     found = determine(rows, names, _wronskian(question, basis, rows, limits), basis.scale)
-    found.particular.extend(ParameterCase((symbol,), CaseOutcome.OPEN) for symbol in sorted(exceptional, key=str))
+    found.particular.extend(ParameterCase((zero,), CaseOutcome.OPEN) for zero in sorted(exceptional, key=str))
     return found._replace(rows=tuple(rows))
 
 
@@ -316,6 +316,23 @@ class _Limit:
         value = self.condition.value
         return found if value is None else [*found, Row(first, second, value - rest)]
 
+    def zeros(self, rows: Sequence[Row], y1: Expr, y2: Expr) -> set[Expr]:
+        """Expressions that are zero where a solution may be bounded that the rows exclude.
+
+        None beside a solution with a limit that isn't 0, if the integral of W diverges: the others are unbounded.
+        """
+        found: set[Expr] = set()
+        for row, y, other in ((Row(S.One, S.Zero, S.Zero), y1, y2), (Row(S.Zero, S.One, S.Zero), y2, y1)):
+            zeros = zeros_of_leading_term(y, self.x, self.place) if row in rows else set()
+            if not zeros:
+                continue
+            with suppress(UnknownLimit):
+                is_log = not self.place.is_infinite and self.of(self.W * (self.x - self.place.point)) != 0
+                if is_log and self.of(other) not in (0, oo, OSCILLATING):
+                    continue
+            found |= zeros
+        return found
+
     def _with_a_large_particular(self, y1: Expr, y2: Expr, y0: Expr) -> list[Row]:
         """The rows if y0 isn't allowed: with y0 - r y for y0, where r = lim y0/y for the larger one of y1 and y2."""
         for k, y in enumerate((y1, y2)):
@@ -329,7 +346,7 @@ class _Limit:
 
 
 def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row], set[Expr]]:
-    """The rows, and nonnegative symbols that were taken for positive ones."""
+    """The rows, and what may be zero: nonnegative symbols that were taken for positive ones, and leading coefficients."""
     parts = sympy.Tuple(*(y.diff(limit.x, limit.order) for y in solutions), limit.W)
     symbols = sorted(parts.free_symbols - {limit.x}, key=str)
     nonnegative = (s for s in symbols if s.is_nonnegative and not s.is_positive)
@@ -342,7 +359,8 @@ def _rows_of_limit(limit: _Limit, solutions: Sequence[Expr]) -> tuple[list[Row],
         except UnknownLimit as unknown:
             reason = unknown
         else:
-            return [Row(*sympy.Tuple(*row).xreplace(back)) for row in rows], {*positive}
+            exceptional = {zero.xreplace(back) for zero in replace(limit, W=W).zeros(rows, *forms[:2])}
+            return [Row(*sympy.Tuple(*row).xreplace(back)) for row in rows], {*positive, *exceptional}
     message = f"undecided: the solutions' behaviour at {limit.place.point}: {reason}"
     open_signs = [f"{s}=positive" for s in symbols if s.is_positive is None and s.is_negative is None]
     if open_signs:

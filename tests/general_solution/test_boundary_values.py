@@ -378,6 +378,16 @@ def test_the_decaying_oscillator_for_every_letter() -> None:
         assert 0 < near < far / 1000, m
 
 
+def test_bound_states_are_exceptions_of_the_zero_solution() -> None:
+    """1F1(1 - n; 2; 2 x/n) grows as exp(2 x/n)/gamma(1 - n): not for the energies of the hydrogen atom."""
+    found = kovacic.answer_to(
+        "y'' + 2/x*y' + (2/x - 1/n^2)*y = 0", ics="y(0)=bounded, y(oo)=0", assume={"n": "positive"}
+    )
+    assert found.eq.rhs == 0
+    values = "n - 1 is one of 0, 1, 2, ..."
+    assert found.notices == [f"this holds unless {values}: substitute such values for the solutions there"]
+
+
 @pytest.mark.long
 def test_limits_that_cannot_be() -> None:
     """A logarithm in y', a pole, an eigenvalue that isn't one; and a sign that nobody knows is undecided."""
