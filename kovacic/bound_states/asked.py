@@ -71,6 +71,8 @@ def asked(
         raise InputError(f"{energy!r} can't be the name of the energy")
     ends = read_domain(domain)
     potential, x, guesses, kinetic = _read(V, None if var is None else str(var), energy, names, limits)
+    if x == energy:
+        raise InputError(f"{x} is the variable, and can't be the name of the energy as well")
     values, rest = values_among(assume or {})
     at = {sympy.Symbol(name): read_expression(value_text(v, name, x, limits=limits)) for name, v in values.items()}
     known_names = {*names_of(sympy.Tuple(potential, kinetic, *ends))} - {x}
