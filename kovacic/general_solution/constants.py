@@ -31,7 +31,7 @@ from kovacic.general_solution.basis import Basis
 from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at, zeros_of_leading_term
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
-from kovacic.general_solution.substitution import finite_value, in_single_waves, size
+from kovacic.general_solution.substitution import by_functions, finite_value, in_single_waves, size
 from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.limits import check_time, manageable
@@ -342,6 +342,11 @@ class _Limit:
                 return [row._replace(r=row.r - row[k] * ratio) for row in shifted]
         if any(self.of(y) == self.of(y0) and self.of(y0 / y) == OSCILLATING for y in (y1, y2)):
             raise UnknownLimit("the particular solution oscillates as others do")
+        parts = by_functions(expand(y0), lambda factor: not factor.has(self.x))
+        large = [f for f in parts if not self.is_allowed(self.of(f))]
+        if len(large) == 1:  # there is a solution only if its coefficient is zero
+            (f,) = large
+            return [*self.rows(y1, y2, expand(y0 - parts[f] * f)), Row(S.Zero, S.Zero, parts[f])]
         return [Row(S.Zero, S.Zero, S.One)]  # no solution
 
 

@@ -486,6 +486,9 @@ class _Family:
         if case.outcome is CaseOutcome.NONE or not all(map(ZeroSet, case.needed)):
             return [f"{where}, where there is no solution"]
         value = self.member(case.values)
+        sets = [ZeroSet(zero).factors for zero in case.zeros]
+        there = value.subs({factors[0]: 0 for factors in sets if len(factors) == 1 and factors[0].is_Symbol})
+        value = value if there.has(sympy.nan, sympy.zoo) else there
         free = [name for name in self.names if value.has(name)]
         value = in_book_form(value, self.question.x, free if len(free) == 2 else ())
         if len(free) == 1:  # a number beside it goes into it

@@ -388,6 +388,11 @@ def test_bound_states_are_exceptions_of_the_zero_solution() -> None:
     assert found.notices == [f"this holds unless {values}: substitute such values for the solutions there"]
 
 
+def test_a_large_particular_solution_has_a_coefficient() -> None:
+    with pytest.raises(kovacic.UnsatisfiableConditions, match=r"unless a = 0, where y\(x\) = 0"):
+        dsolve("y'' - y = a*x", ics="y(0)=0, y(oo)=bounded")
+
+
 @pytest.mark.long
 def test_limits_that_cannot_be() -> None:
     """A logarithm in y', a pole, an eigenvalue that isn't one; and a sign that nobody knows is undecided."""
