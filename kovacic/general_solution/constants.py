@@ -260,13 +260,15 @@ def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: di
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:
     """The place of a condition on a limit; None for values at ordinary points.  Raises `InputError` if it is both."""
     place = next((point for point in condition.points if point in limits), None)
-    if place is None and condition.value is None:
-        point = condition.points[0]
-        raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
-    if place is not None and (len(condition.terms) > 1 or condition.terms[0].coefficient != 1):
+    if place is None:
+        if condition.value is None:
+            point = condition.points[0]
+            raise InputError(f"{condition.text}: {point} is an ordinary point, where every solution is bounded")
+        return None
+    if len(condition.terms) > 1 or condition.terms[0].coefficient != 1:
         reason = f"{place} is a singular point, or infinite"
         raise InputError(f"{condition.text}: {reason}; there, y and y' are given apart", hint="write y(0) = bounded")
-    return None if place is None else limits[place]
+    return limits[place]
 
 
 @dataclass(frozen=True)
