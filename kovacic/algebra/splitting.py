@@ -22,9 +22,7 @@ from kovacic.algebra.rationals import QQ, RationalHomomorphism
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
-#: From this degree on a number field may have too few primes that split completely, as the first ones show.
-_LEAST_RARE_DEGREE = 4
-#: Primes that are tried where a number field of such a degree has parameters.
+#: Primes that are tried where a number field of a large degree has parameters.
 _MOST_PRIMES = 20000
 
 
@@ -43,10 +41,8 @@ def number_field_homomorphisms(field: Any, p: int) -> Iterator[Homomorphism]:
 
 @lru_cache(maxsize=64)
 def splits_rarely(base: Field, modulus: Poly) -> bool:
-    """True for a number field of a large degree in which none of the first primes splits completely."""
-    if base != QQ or modulus.degree < _LEAST_RARE_DEGREE:
-        return False
-    return not any(_splits(modulus, p) for p in islice(primes(), SAMPLE_PRIMES))
+    """True for a number field in which none of the first primes splits completely."""
+    return base == QQ and not any(_splits(modulus, p) for p in islice(primes(), SAMPLE_PRIMES))
 
 
 def _splits(modulus: Poly, p: int) -> bool:
