@@ -58,8 +58,6 @@ _MOST_FAMILIES = 4096
 _FEW_FAMILIES = 8
 #: The highest order of a pole: longer singular parts fill a screen each, and (1 + x + x^2)/x^200 takes more than a minute.
 _HIGHEST_POLE_ORDER = 40
-#: The degree over Q of the coefficients of r.
-_HIGHEST_DEGREE = 6
 #: Multiplications of coefficients for all trials together: a few seconds.
 _MOST_TRIAL_WORK = 1_000_000
 #: Coefficients of P whose conditions are written out.
@@ -106,11 +104,9 @@ class Search:
 def search(problem: Problem, variable: str, m: int) -> Search | None:
     """Steps 1 to 3 for omega of degree m; of many families they try those up to the first that succeeds.
 
-    None outside the domain: exponents that are no square roots of constants, constants of a high degree, poles of a high
-    order.
+    None outside the domain: exponents that are no square roots of constants, poles of a high order.
     """
-    highest = max(place.order for place in problem.places)
-    if highest > _HIGHEST_POLE_ORDER or problem.field.absolute_degree > _HIGHEST_DEGREE:
+    if max(place.order for place in problem.places) > _HIGHEST_POLE_ORDER:
         return None
     roots = Roots(problem.field)
     *poles, infinity = problem.places

@@ -212,3 +212,9 @@ def test_a_single_family_is_one() -> None:
     """e = 3 at the pole of order 3, and -1 at infinity, where S grows like x: d = -2."""
     explained = kovacic.solve("x + 1/x^3").explain()
     assert "Step 2: d = (e_inf - sum e_c)/2; 1 family of exponents, d is a natural number in none of them" in explained
+
+
+def test_families_over_a_field_of_degree_eight() -> None:
+    # y = (x - c) exp(-(x - c)^2/2), the first excited state at c
+    found = searched(kovacic.solve("(x - 2^(1/8))^2 - 3"), 1)
+    assert [str(family.d) for family in found.families or () if family.P is not None] == ["1"]
