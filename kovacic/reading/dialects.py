@@ -364,7 +364,7 @@ class _Translation:
 
     def primes(self, token: Token) -> bool:
         """((1 - x^2) y')' and sin(x)': the operand before the primes is differentiated; y(x)'' is y''(x)."""
-        if not self.found or self.found[-1][0] != "RPAR" or self.texts[self.k - 1] not in CLOSING:
+        if self.texts[self.k - 1] not in CLOSING or self.found[-1][0] != "RPAR":
             return False
         kind, name, start, end = self.found[max(0, self.closed - 1)]
         if kind == "HEAD" and not is_function(name):
@@ -594,26 +594,17 @@ _PLAIN_TEXT = re.compile(
     """,
     re.VERBOSE | re.ASCII,
 )
-_PLAIN_TOKEN = re.compile(
-    r"(?P<HEAD>[A-Za-z]'*(?=\ *\())|(?P<NUMBER>[0-9]+)|(?P<PRIMED>[A-Za-z]'+)|(?P<NAME>[A-Za-z])|\*\*|[^ ]"
-)
 
 
-def plain_tokens(text: str) -> ParserTokens | None:
-    """The result of `in_own_notation` for a text in this package's own notation; None for other texts.
+def is_plain(text: str) -> bool:
+    """True for a text in which no notation of another system can occur: it is one equation, or S alone.
 
-    >>> plain_tokens("y''(x) = -4 y").pieces, plain_tokens("y'' = sin x")
-    (["y''", '(', 'x', ')', '=', '-', '4', 'y', ''], None)
+    >>> is_plain("y''(x) = -4 y"), is_plain("y'' = sin x")
+    (True, False)
     """
-    if _PLAIN_TEXT.fullmatch(text) is None or text.isspace():
-        return None
-    found = [
-        Token(match.lastgroup or _SIGN_KINDS[match[0]], match[0], *match.span())
-        for match in _PLAIN_TOKEN.finditer(text)
-    ]
-    return ParserTokens([*found, Token("$END", "", len(text), len(text))], text)
+    return _PLAIN_TEXT.fullmatch(text) is not None and not text.isspace()
 
 
 def tokenize(text: str) -> ParserTokens:
     """The tokens of an expression.  Raises `ParseError` for tokens without a meaning."""
-    return plain_tokens(text) or in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))
+    return in_own_notation(text, rewritten(Tokens(scanned(text)), NOTATIONS))

@@ -156,11 +156,8 @@ class Vocabulary:
 
     def _with_products(self, tokens: ParserTokens, x: str, y: str) -> tuple[ParserTokens, list[str]]:
         """With x y for xy; notes say so.  Raises `ParseError` for all other names that aren't known."""
-        pieces = tokens.pieces
         unknown = [
-            k
-            for k, kind in enumerate(tokens.kinds)
-            if kind in _NAME_KINDS and pieces[k] != x and not self._is_known(tokens, k, x, y)
+            k for k, kind in enumerate(tokens.kinds) if kind in _NAME_KINDS and not self._is_known(tokens, k, x, y)
         ]
         rows = list(tokens)
         notes: dict[str, None] = {}
@@ -233,8 +230,7 @@ def _check_readings(
     tokens: ParserTokens, readings: str, said: str, hint: str, ends: Sequence[str] = ("", ""), unknown: str = ""
 ) -> None:
     """Raises `ParseError` for a pattern with two readings, unless it ends with `unknown`; `ends` complete the hint."""
-    may_occur = any(sign in tokens.text for sign in "eE^")
-    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced) if may_occur else ():
+    for found in pattern(readings.replace("NAME", _NAME)).finditer(tokens.spaced):
         parts = [part.replace(" ", "") for part in found.groups()]
         if parts[-1] != unknown:
             begin, behind = tokens.span(found)
@@ -248,8 +244,6 @@ def _check_ends(tokens: ParserTokens, x: str, y: str) -> None:
     """Raises `ParseError` where the operand of d/dx, or of a function without parentheses, may go on: d/dx x y', sin a*x."""
     for opening, closing in tokens.partners.items():
         head, sign = opening - 1, tokens.piece(opening - 1, opening)
-        if tokens.kinds[head] != "HEAD":
-            continue
         if _is_rate(tokens, opening):
             end, behind = closing - 4, closing + 1  # diff(y, x, 1)
             is_clear, kind = _is_whole_operand(tokens, opening, end, behind, y), "operand"
@@ -278,7 +272,7 @@ def _is_rate(tokens: ParserTokens, opening: int) -> bool:
 def _is_whole_operand(tokens: ParserTokens, opening: int, end: int, behind: int, y: str) -> bool:
     """True if what stands behind the operand of d/dx can't belong to it: the operand has y and ends, as d/dx (x y')."""
     inside = tokens.pieces[opening + 1 : end]
-    if not inside or tokens.kinds[behind] not in _FOLLOWING:
+    if tokens.kinds[behind] not in _FOLLOWING:
         return True
     is_enclosed = tokens.partners.get(opening + 1) == end - 1 or tokens.are(behind + 1, "NUMBER")
     has_unknown = y in (piece.rstrip(PRIME) for piece in inside)

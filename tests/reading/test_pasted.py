@@ -23,10 +23,7 @@ from kovacic.cli.main import run
 from kovacic.doubles.lambdify import lambdify
 from kovacic.general_solution.conditions import apart
 from kovacic.general_solution.question import read_question
-from kovacic.reading import notations
-from kovacic.reading.dialects import in_own_notation, plain_tokens, tokenize
-from kovacic.reading.lexer import scanned
-from kovacic.reading.notations import Tokens, rewritten
+from kovacic.reading.dialects import is_plain, tokenize
 from kovacic.reading.pieces import Paste
 from kovacic.reading.source import source_of
 
@@ -958,13 +955,13 @@ def test_plain_texts_are_read_as_all_others() -> None:
     ]
     plain = 0
     for text in texts:
-        found = plain_tokens(text)
-        if found is None:
+        if not is_plain(text):
             continue
         plain += 1
-        other = in_own_notation(text, rewritten(Tokens(scanned(text)), notations.NOTATIONS))
-        assert (list(found), found.text, found.variable) == (list(other), other.text, other.variable), text
         paste = Paste(text)
+        (found,) = paste.equations
+        other = tokenize(text)
+        assert (list(found), found.text, found.variable) == (list(other), other.text, other.variable), text
         assert paste.is_equation == ("=" in text or "'" in text)
         assert (paste.notes, paste.variable, len(paste.equation_scans)) == ([], None, 1), text
     assert plain > 1000
