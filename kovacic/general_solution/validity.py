@@ -90,6 +90,8 @@ def _without_what_holds(
     zeros = [e for e in exceptions if not is_nowhere_zero(e)]
     nonzero: list[Expr] = []
     for k in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
+        # -x >= 0 and x != 0 are -x > 0; where letters are zero other formulas hold
+        nonzero += [r.lhs for r in relations if isinstance(r, Ne) and r.lhs.has(x)]
         truths = {part: _truth(part) for r in relations for part in _shorter_relations(r, relations, nonzero)}
         if False in truths.values():
             return None
@@ -230,6 +232,7 @@ def _truth(relation: Expr) -> bool | None:
 
 def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] | None:
     """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, without relations that hold there; None if no interval satisfies all."""
+    relations = [r.reversedsign if r.lhs == -x else r for r in relations]  # x < 0
     rational, others = sympy.sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
     if len(relations) == 1 or not rational:
         return tuple(relations)
