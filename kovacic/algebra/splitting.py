@@ -22,6 +22,8 @@ from kovacic.algebra.rationals import QQ, RationalHomomorphism
 from kovacic.errors import LimitExceeded
 from kovacic.limits import check_time
 
+#: Homomorphisms at one prime that are taken together: 2^(1/12)/(x^2 - 1)^2 with 12 of them was undecided after minutes.
+_MOST_AT_ONCE = 6
 #: Primes that are tried where a number field of a large degree has parameters.
 _MOST_PRIMES = 20000
 
@@ -41,8 +43,12 @@ def number_field_homomorphisms(field: Any, p: int) -> Iterator[Homomorphism]:
 
 @lru_cache(maxsize=64)
 def splits_rarely(base: Field, modulus: Poly) -> bool:
-    """True for a number field in which none of the first primes splits completely."""
-    return base == QQ and not any(_splits(modulus, p) for p in islice(primes(), SAMPLE_PRIMES))
+    """True for a number field of a large degree, or one in which none of the first primes splits completely.
+
+    A square root that is adjoined to a field of degree n splits over all of its homomorphisms at one prime in 2^n.
+    """
+    is_small = modulus.degree <= _MOST_AT_ONCE
+    return base == QQ and not (is_small and any(_splits(modulus, p) for p in islice(primes(), SAMPLE_PRIMES)))
 
 
 def _splits(modulus: Poly, p: int) -> bool:

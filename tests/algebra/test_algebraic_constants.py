@@ -109,6 +109,14 @@ def test_a_square_root_beside_an_irrational_coefficient() -> None:
     assert str(answer.constants) == "x**2 + 6"
 
 
+@pytest.mark.parametrize("b", ["2^(1/12)", "sqrt(2)+sqrt(3)+sqrt(5)+sqrt(7)"])
+def test_a_square_root_over_a_field_of_a_large_degree(b: str) -> None:
+    """omega has sqrt(1 + b), which splits over all homomorphisms of a field of degree n at one prime in 2^n."""
+    answer = kovacic.solve(f"({b})/(x^2-1)^2")
+    assert answer.verified
+    assert str(answer.group) == "G_m"
+
+
 @pytest.mark.long
 @generated(4)
 @given(strategies.over_number_fields("case 1", "case 2", "odd"))
