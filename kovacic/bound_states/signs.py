@@ -102,7 +102,7 @@ class Signs:
             if found is None and len(letters) == 1 and letters[0].is_real and factored.is_polynomial(*letters):
                 poly = sympy.Poly(factored, *letters)
                 if (poly.domain.is_QQ or poly.domain.is_ZZ) and not poly.count_roots():  # g^2 + g + 1
-                    found = poly.eval(0) > 0
+                    found = poly.nth(0) > 0
             if found is not None:
                 return bool(found)
         return None

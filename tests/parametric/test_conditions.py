@@ -884,7 +884,7 @@ def test_exponents_are_summed_where_equations_are_long() -> None:
     regge = "(l*(1 - 1/x)*(l + 1)/x^2 - w^2 + (1 - s^2)*(1 - 1/x)/x^3)/(1 - 1/x)^2"
     answer = kovacic.conditions(regge, var="x", max_degree=0)
     assert "d + 1 = +-sqrt(4*s^2 - 3)/2 +- sqrt(-4*w^2 + 1)/2 +- w*I, d in N" in str(answer)
-    assert "at each point the rank of its linear system decides" in str(answer)
+    assert "its linear system decides" in str(answer)
     _, wrong = misread(answer, 4)
     assert not wrong
 
