@@ -1,12 +1,12 @@
-"""Choose the tests of the ordinary suite: few seconds, in which every branch is executed and every test function has a row.
+"""Choose the tests of the ordinary suite: few seconds, in which every branch is executed.
 
     python benchmarks/ordinary_suite.py                  # of all tests not marked `long` or `slow` by hand, in 10 to 20 minutes
     python benchmarks/ordinary_suite.py tests/galois     # of some: arguments for pytest
 
 Needs pytest-cov.  Lists the tests whose branches others execute in less time: those of LONG seconds or more in
 tests/data/long_tests.txt, those of SLOW seconds or more in slow_tests.txt.  `tests/conftest.py` marks them so: .ci/run has the
-long ones, and a release the slow ones.  The shortest row of a test function is ordinary, or long.  A test that isn't listed is
-ordinary.
+long ones, and a release the slow ones.  The shortest row of a test function isn't slow, so that .ci/run has a row of each.
+A test that isn't listed is ordinary.
 
 Method: V. Chvatal, "A greedy heuristic for the set-covering problem", Mathematics of Operations Research 4 (1979).
 """
@@ -103,10 +103,8 @@ def main() -> None:
         # .ci/run looks for long tests in tests/; docstrings are tested where they stand.
         if seconds[test] < LONG or not test.startswith("tests/"):
             lengths[test] = "ordinary"
-        elif function in functions:
-            lengths[test] = "slow" if is_slow else "long"
-        else:  # the shortest row, of a function that may state what no other does
-            lengths[test] = "long" if is_slow else "ordinary"
+        else:  # the shortest row of a function, which may state what no other does, is never slow
+            lengths[test] = "slow" if is_slow and function in functions else "long"
         functions.add(function)
     for name in ("long", "slow"):
         listed = sorted(test for test, length in lengths.items() if length == name)
