@@ -60,6 +60,8 @@ from kovacic.limits import check_time, count_work
 
 # Steps as small as 2^-60 of the ways behind and ahead mean that there is a singular point.
 _SMALLEST_STEP_BITS = 60
+# Periods from which on they are taken in one step; one of them may lead beyond a way from 5/4 to 3/4, to a pole of tan(x).
+_FEWEST_PERIODS = 4
 _PERIODIC = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc, sympy.exp)
 # Length of g.  At 20 the matrices take as long as the discs to x = 20 (y'' + y = x^19, 15 ms), at 40 five times as long.
 _MOST_RIGHT_TERMS = 20
@@ -197,7 +199,7 @@ class PeriodicWay(AnalyticWay):
 
     def carried(self, a: ExactPoint, b: ExactPoint, maps: MapProduct) -> MapProduct:
         n = self._periods(a, b)
-        if not n:
+        if abs(n) < _FEWEST_PERIODS:
             return super().carried(a, b, maps)
         # If P isn't diagonal, P^m is of the size m, and its square loses log2(m) bits and some more; n T loses those of n.
         squares = n.bit_length()
@@ -228,7 +230,8 @@ class PeriodicWay(AnalyticWay):
 
     def fan(self, traveller: Traveller, stops: Points) -> States:
         here = traveller.point
-        if max(abs(self._periods(here, stop)) for stop in stops) <= len(stops):  # discs on the way serve all of them
+        periods = {stop: abs(self._periods(here, stop)) for stop in stops}
+        if max(periods.values()) < _FEWEST_PERIODS + len(stops):  # discs on the way serve all of them
             return super().fan(traveller, stops)
         return traveller.to_each(stops)
 
