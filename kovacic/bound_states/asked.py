@@ -147,19 +147,8 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     constants = {name: value for name, value in ((PI, sympy.pi), (EULER, sympy.E)) if name in free}
     for constant in constants:
         known = known.also(constant, ("irrational", "positive"))
-    signs = Signs(known, names)
-    even = _even_rates(question)
-    for name in sorted(name for name, symbol in signs.symbols.items() if signs.sign(symbol) is None):
-        opposite = known.also(name, ("negative",))
-        is_implied = False
-        if not opposite.of(name).is_contradiction():
-            first, last = map(Signs(opposite, names).real, question.interval)
-            is_implied = Signs(opposite, names).sign(last - first) == -1  # 0 < x < pi/a
-        if is_implied or name in even:
-            known = known.also(name, ("positive",))
-        if name in even and not is_implied:
-            said = f"{name} is taken as positive, as V doesn't depend on its sign"
-            question = replace(question, notices=(*question.notices, said))
+    known, notices = _with_positive_letters(question, known, names)
+    question = replace(question, notices=(*question.notices, *notices))
     signs = Signs(known, names)
     first, last = map(signs.real, question.interval)
     if signs.is_nonnegative(first - last) or sympy.oo in (first, -last):
@@ -170,6 +159,27 @@ def exact_problem(question: Asked, limits: Limits) -> SpectralProblem:
     return SpectralProblem(
         **vars(question), parsed=parsed, domain=(first, last), known=known, signs=signs, meanings=letters
     )
+
+
+def _with_positive_letters(question: Asked, known: Assumptions, names: Sequence[str]) -> tuple[Assumptions, list[str]]:
+    """The assumptions, with letters of unknown sign that may be taken as positive, and notes on those.
+
+    A domain that isn't empty says a > 0, as 0 < x < pi/a does; a rate of which V and the domain are even has either sign.
+    """
+    even, notices = _even_rates(question), []
+    signs = Signs(known, names)
+    for name in sorted(name for name, symbol in signs.symbols.items() if signs.sign(symbol) is None):
+        opposite = known.also(name, ("negative",))
+        is_implied = False
+        if not opposite.of(name).is_contradiction():
+            signs_there = Signs(opposite, names)
+            first, last = map(signs_there.real, question.interval)
+            is_implied = signs_there.sign(last - first) == -1
+        if is_implied or name in even:
+            known = known.also(name, ("positive",))
+        if name in even and not is_implied:
+            notices.append(f"{name} is taken as positive, as V doesn't depend on its sign")
+    return known, notices
 
 
 def _even_rates(question: Asked) -> set[str]:

@@ -143,9 +143,8 @@ class SecondOrderAnswer(ProblemAnswer):
         members = sympy.Tuple(self.basis.y1, self.basis.y2).atoms(sympy.Function)
         left = members & value.atoms(sympy.Function)
         found = [*map(self.question.own, self.basis.undefined)] if left else []
-        if found and any(
-            isinstance(f, sympy.hyper) for f in members - left
-        ):  # then where a series that is left has a pole
+        # Without the other series there is an exception only where one that is left has a pole.
+        if found and any(isinstance(f, sympy.hyper) for f in members - left):
             below = (self.question.own(b) for f in left for b in getattr(f, "bq", ()))
             found = [zero for b in below if ZeroSet(zero := 1 / sympy.gamma(b))]
         solution = self.question.own(value)

@@ -115,7 +115,8 @@ class Gauss(StandardEquation):
         forms = _GaussForm.of(self, writer, f).arranged
         first = forms[0]
         signed_forms = [signed for form in forms for signed in form.signs]
-        if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
+        has_letters = any(map(writer.has_letters, (first.alpha, first.beta, first.gamma)))
+        if has_letters:
             polynomial = next((form for form in signed_forms if form.has_polynomial), None)
             if polynomial is not None:
                 return _with_polynomial(polynomial)
@@ -124,7 +125,7 @@ class Gauss(StandardEquation):
         if central is not None and not reducible:
             is_log = writer.is_integer(central.alpha)
             return _at_two_points(central.regular, central.swapped.regular) if is_log else _at_one_point(central)
-        if any(map(writer.has_letters, (first.alpha, first.beta, first.gamma))):
+        if has_letters:
             even = next((form for form in signed_forms if form.alpha == form.beta and form.is_between), None)
             if even is not None:
                 return _by_parity(even)  # independent for all values of the letters
