@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from copy import copy
 from fractions import Fraction
 from itertools import product
 from typing import Any, cast
@@ -14,7 +15,7 @@ from sympy import Add, Integer, Mul, Rational, Symbol, exp, log, ordered
 from sympy.functions.special.hyper import TupleArg
 
 from kovacic.algebra.embedding import adjoined_root, enclosure, vanishing_factor
-from kovacic.algebra.extension import AlgebraicField, norm
+from kovacic.algebra.extension import AlgebraicField, adjoined_square_root, norm
 from kovacic.algebra.function_field import FunctionPoly
 from kovacic.algebra.partial_fractions import Residue
 from kovacic.algebra.poly import Field, Poly
@@ -106,6 +107,12 @@ class Atoms:
         self._generators: dict[tuple[Any, ...], Expr] = {}
         self.notes: list[str] = []
 
+    def of_variable(self, variable: Symbol) -> Atoms:
+        """Conversions for another variable, with the same constants."""
+        other = copy(self)
+        other.x, other.at = variable, None
+        return other
+
     @cached_property
     def root(self) -> Expr:
         """The bound variable of sums over roots."""
@@ -129,6 +136,8 @@ class Atoms:
         if isinstance(value, FunctionPoly):
             outer, inner = value.square_part()
             return outer.to_sympy(self.x) * radical(inner.to_sympy(self.x))
+        if isinstance(value.field, AlgebraicField) and not any(value.parts[1:]):
+            return self.sqrt(value.parts[0])
         return radical(self.constant(value))
 
     def root_of(self, g: Poly) -> tuple[Expr, Expr]:
@@ -260,8 +269,46 @@ class Atoms:
             return Add(*(sympy.expand_mul(self.poly(value, a)) * log(self.x - a) for a in roots))
         if p.degree == 2:
             return self._log_sum_of_quadratic(p, value)
+        if factors := _factors_of_binomial(p) or self._real_quadratics(p):
+            return Add(*(self.log_sum(Residue(q, value.over(q.field) % q)) for q in factors))
         a = self.root
         return self.root_sum(self.poly(p, a), self.poly(value, a) * log(self.x - a))
+
+    def _real_quadratics(self, p: Poly) -> list[Poly]:
+        """The factors of an irreducible quartic over an extension by real square roots; none if that takes a cubic root.
+
+        (x^2 + a x + b)(x^2 + c x + d): a + c = p3 and a c = p2 - y, b + d = y and b d = p0, a d + b c = p1, where y is a root
+        of the resolvent y^3 - p2 y^2 + (p1 p3 - 4 p0) y - (p3^2 p0 - 4 p2 p0 + p1^2).
+        """
+        if p.degree != 4:
+            return []
+        p0, p1, p2, p3 = (p[k] for k in range(4))
+        resolvent = p.field.poly([4 * p2 * p0 - p3 * p3 * p0 - p1 * p1, p1 * p3 - 4 * p0, -p2, 1])
+        factors = [factor for factor, _ in p.field.factor(resolvent) if factor.degree < 3]
+        for factor in sorted(factors, key=lambda factor: factor.degree):
+            middle = -factor[factor.degree - 1] / factor.degree
+            half = middle * middle - factor[0] if factor.degree == 2 else p.field.zero
+            root = self._real_root(half) if half else half
+            for y in () if root is None else dict.fromkeys((middle + root, middle - root)):
+                a = c = p3 / 2
+                square = p3 * p3 - 4 * p2 + 4 * y  # (a - c)^2
+                difference = self._real_root(square or y * y - 4 * p0)
+                if difference is None:
+                    continue
+                b, d = (y + difference) / 2, (y - difference) / 2
+                if square:
+                    a, c = a + difference / 2, a - difference / 2
+                    b = (p1 - a * y) / (c - a)
+                    d = y - b
+                x = difference.field.x
+                return [x * x + a * x + b, x * x + c * x + d]
+        return []
+
+    def _real_root(self, value: Poly) -> Poly | None:
+        """The square root of a constant that is positive: a number, or one times a square for all letters; else None."""
+        radicand = value.square_part()[1] if isinstance(value, FunctionPoly) else value
+        is_positive = self.own(self.constant(radicand)).is_positive
+        return adjoined_square_root(value.field, value, as_radical=True) if is_positive else None
 
     def _log_sum_of_quadratic(self, p: Poly, value: Poly) -> Expr:
         """The sum of logarithms for u = A x^2 + B x + C, p = u/A: m log(u) - k w/(A sqrt(w)) atan((2 A x + B)/sqrt(w)).
@@ -317,6 +364,23 @@ class Atoms:
                 return Add(*(body.subs(self.root, root) for root in roots))
         kind = RootSum if over.domain.is_EX else sympy.RootSum
         return kind(over, sympy.Lambda(self.root, body), auto=False)
+
+
+def _factors_of_binomial(p: Poly) -> list[Poly]:
+    """The factors of an irreducible (x - m)^n - b over the field of |b|^(1/n), b rational; [] if there is only one."""
+    m = p.mean_of_zeros
+    x, n = p.field.x, p.degree
+    shifted = p(x + m)
+    if p.field != QQ or any(shifted[k] for k in range(1, n)):
+        return []
+    b = QQ.rational_value(-shifted[0]) or 0
+    # x^n - |b| has an irreducible factor x^k - r, r > 0 [Capelli].
+    binomials = (q for q, _ in QQ.factor(x**n - max(b, -b)) if not any(q[k] for k in range(1, q.degree)))
+    positive = next(q for q in binomials if (QQ.rational_value(q[0]) or 0) < 0)
+    root = -positive[0] if positive.degree == 1 else AlgebraicField(QQ, positive).generator
+    units = [q for q, _ in QQ.factor(x**n - (1 if b > 0 else -1))]
+    scaled = (root.field.poly([c * root ** (q.degree - k) for k, c in enumerate(q)]) for q in units)
+    return [q(root.field.x - m) for q in scaled] if len(units) > 1 else []
 
 
 def _is_the_smaller_root(field: AlgebraicField) -> bool:

@@ -587,22 +587,32 @@ def _exponential_integrals(y: Product, primitive: ExponentialPrimitive, first: F
         c, function = _gamma(b, term.n, q, power, atoms)
         shift = exp(atoms.constant(term.e))
         terms.append(_scaled(scale * atoms.constant(term.coefficient) * c, [*parts, shift, function]))
-    at_poles = [_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles]
-    return terms + [_scaled(scale, [*parts, found]) for found in at_poles]
+    at_poles = (_sum_at_poles(residue, primitive, atoms) for residue in primitive.poles)
+    return terms + [_scaled(scale * c, [*parts, found]) for c, found in at_poles]
 
 
-def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atoms) -> Expr:
-    """The sum over conjugate poles as at `ExponentialPrimitive`, with a^n for the pole, so that z is a."""
+def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atoms) -> Scaled:
+    """The sum over conjugate poles as at `ExponentialPrimitive`, the integral of rho t^alpha/(t - a) for E = 0."""
     t, E = primitive.t, primitive.E(primitive.t)
-    n = primitive.alpha.denominator
-    a = atoms.root
-    body = atoms.poly(residue.value, a**n)
     if E:
-        body *= exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
-    else:
-        root = atoms.poly(t.num) ** Rational(1, n) * atoms.poly(t.den) ** Rational(-1, n)
-        body *= a**primitive.alpha.numerator * log(root - a)
-    return atoms.root_sum(atoms.poly(residue.factor, a**n), body)
+        a = atoms.root
+        body = atoms.poly(residue.value, a) * exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
+        return Integer(1), atoms.root_sum(atoms.poly(residue.factor, a), body)
+    # For s = -t it is (-1)^alpha times the integral of rho s^alpha/(s + a); (-1)^alpha as where W k is written.
+    parts = ((t.num, primitive.alpha), (t.den, -primitive.alpha))
+    turned = [alpha if p.degree > 0 and atoms.is_turned(p) else Fraction(0) for p, alpha in parts]
+    sign = 1 if all(turned) or not any(turned) else -1
+    n, k = primitive.alpha.denominator, primitive.alpha.numerator
+    field = residue.factor.field
+    power = sign * field.x**n
+    in_root = atoms.of_variable(sympy.Dummy("u", real=True))
+    found = Integer(0)
+    for p, _ in field.factor(residue.factor(power).monic()):
+        unit = field.x if k > 0 else field.x.inverse_modulo(p)  # no pole is 0
+        found += in_root.log_sum(Residue(p, residue.value(power) * unit ** abs(k) % p))
+    bases = (-atoms.poly(p) if e else atoms.poly(p) for (p, _), e in zip(parts, turned, strict=True))
+    root = Mul(*(base ** Rational(e, n) for base, e in zip(bases, (1, -1), strict=True)))
+    return Integer(-1) ** Rational(sum(turned)), found.xreplace({in_root.x: root})
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:

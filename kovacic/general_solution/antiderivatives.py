@@ -35,7 +35,7 @@ from kovacic.general_solution.integrands import (
 )
 from kovacic.general_solution.substitution import inverted, size
 from kovacic.general_solution.waves import beside_waves, by_coefficients, common_factor, wave_changes
-from kovacic.general_solution.zero import ball_of, differs_from_zero
+from kovacic.general_solution.zero import ball_of, differs_from_zero, known_jet, quadrant_points
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -76,7 +76,7 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
             return None
     # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one
     has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
-    if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x):
+    if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x, start):
         return None
     return found
 
@@ -98,13 +98,17 @@ def _by_rules(given: Expr, x: Expr) -> Expr:
     return total
 
 
-def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr) -> bool:
-    """True if its derivative is the integrand at distant real points at which that is real."""
+def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr, start: Expr | None) -> bool:
+    """True if its derivative is the integrand at `start`, at distant real points at which that is real, and beside the axis."""
     difference = found.diff(x) - integrand
     letters = next(letter_samples(integrand.free_symbols - {x}))
     values = {point: ball_of(integrand, {**letters, x: point}) for point in _REAL_POINTS}
     real = [point for point, value in values.items() if value is not None and value.imag.contains(0)]
-    return not any(differs_from_zero(difference, {**letters, x: point}) for point in real)
+    points = real if start is None else [*real, start]
+    if any(differs_from_zero(difference, {**letters, x: point}) for point in points):
+        return False
+    beside = (known_jet(difference.xreplace(letters), x, point) for point in quadrant_points() if point.imag != 0)
+    return all(value is None or value[0].contains(0) for value in beside)
 
 
 def _functions(expression: Expr) -> set[Any]:

@@ -189,7 +189,7 @@ def multiple_of(
     >>> multiple_of(1 / x, x**k, x**-k, x)
     -2*k/x
     """
-    for quotient in chain(_quotients(w, y1, y2, x), _TURNS):
+    for quotient in chain(_TURNS, _quotients(w, y1, y2, x)):
         check_time()
         c = in_single_waves(quotient or 0)
         is_constant = c != 0 and not _has_functions(c) and not c.has(sympy.nan, sympy.zoo)

@@ -26,15 +26,25 @@ import sympy
 from sympy import Mul, S, acos, atan, cos, cosh, exp, expand, gamma, log, oo, sin, sinh, tan, tanh
 from sympy.simplify.fu import TR2i
 
+from kovacic.closed_form.atoms import Atoms
 from kovacic.errors import InputError
 from kovacic.general_solution.basis import Basis
-from kovacic.general_solution.behaviour import OSCILLATING, Approach, UnknownLimit, limit_at, zeros_of_leading_term
+from kovacic.general_solution.behaviour import (
+    OSCILLATING,
+    Approach,
+    UnknownLimit,
+    limit_at,
+    value_or_limit,
+    values_at,
+    zeros_of_leading_term,
+)
 from kovacic.general_solution.conditions import Condition
 from kovacic.general_solution.question import Question
 from kovacic.general_solution.substitution import by_functions, finite_value, in_single_waves, size
 from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import Zero, is_nowhere_zero, when_zero
 from kovacic.limits import check_time, manageable
+from kovacic.reading.read import read_input
 
 Expr = Any  # SymPy publishes no types
 #: Functions in which constants are simplified as rational expressions.
@@ -211,10 +221,21 @@ def tidy(value: Any) -> Any:
         return value
     if not functions:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else expand
-        return sympy.radsimp(shorten(value), symbolic=False)
+        return min(sympy.radsimp(shorten(value), symbolic=False), _over_one_root(value), key=size)
     if not functions <= _ELEMENTARY:
         return min((value, expand(value), in_single_waves(value)), key=size)
     return min(map(TR2i, (value, sympy.cancel(value))), key=size)
+
+
+def _over_one_root(value: Expr) -> Expr:
+    """A number in Q(a^(1/n)), a > 0, as a polynomial in that root, without a denominator; any other value as it is."""
+    roots = [power for power in value.atoms(sympy.Pow) if not power.exp.is_Integer]
+    if not roots or not all(root.base.is_Integer and root.base > 0 and root.exp.is_Rational for root in roots):
+        return value
+    x = sympy.Symbol("x_")
+    number = read_input(value, var=x.name).S
+    written = Atoms(x).constant(number.num[0] / number.den[0])
+    return value if written.has(sympy.CRootOf) else written
 
 
 def constants_of(
@@ -226,35 +247,48 @@ def constants_of(
     steps: Mapping[Expr, Expr] = MappingProxyType({}),
 ) -> Determined:
     """The constants by the conditions, with values of `steps`.  Raises `NotImplementedError` if too little is known."""
-    solutions = [question.own(y) for y in (basis.y1, basis.y2, particular)]
+    y1, y2, own_particular = solutions = [question.own(y) for y in (basis.y1, basis.y2, particular)]
     rows: list[Row] = []
     exceptional: set[Expr] = set()
-    for condition in question.conditions:
+    W = _wronskian(question, basis, limits)
+    for k, condition in enumerate(question.conditions):
         place = _limit_place(condition, limits)
         if place is None:
-            u, v, of_particular = (condition.of(y, question.x) for y in solutions)
+            u, of_particular = (condition.of(y, question.x) for y in (y1, own_particular))
+            v = condition.of(y2, question.x) if W is None or k > 1 else _of_second(condition, y1, y2, question.x, W)
             rows.append(Row(u, v, condition.value - of_particular.xreplace(steps)))
         else:
             limit = _Limit(condition, place, question.own(basis.wronskian), question.x)
             of_limit, zeros = _rows_of_limit(limit, solutions)
             rows += of_limit
             exceptional |= zeros
-    found = determine(rows, names, _wronskian(question, basis, rows, limits), basis.scale)
+    if W is not None:
+        determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
+        # of y and y' it is W, of y' and y it is -W
+        W = determinant if determinant.is_Rational else (1 if question.conditions[1].terms[0].order else -1) * W
+    found = determine(rows, names, W, basis.scale)
     found.particular.extend(ParameterCase((zero,), CaseOutcome.OPEN) for zero in sorted(exceptional, key=str))
     return found._replace(rows=tuple(rows))
 
 
-def _wronskian(question: Question, basis: Basis, rows: Sequence[Row], limits: dict[Expr, Approach]) -> Expr | None:
-    """The determinant, which isn't zero, in a short form if y and y' at one point are given first; else None."""
+def _wronskian(question: Question, basis: Basis, limits: dict[Expr, Approach]) -> Expr | None:
+    """The Wronskian, which isn't zero, at the point where y and y' are given first; None without one."""
     terms = [condition.terms[0] for condition in question.conditions[:2] if condition.is_value]
     places = {term.point for term in terms}
     if {term.order for term in terms} != {0, 1} or len(places) != 1 or not places.isdisjoint(limits):
         return None
-    first, second = terms
-    determinant = rows[0].u * rows[1].v - rows[0].v * rows[1].u
-    W = finite_value(question.own(basis.wronskian), question.x, first.point)
-    # of y and y' it is W, of y' and y it is -W
-    return determinant if W is None or determinant.is_Rational else (second.order - first.order) * W
+    W = finite_value(question.own(basis.wronskian), question.x, terms[0].point)
+    return W if W is None or W.free_symbols else tidy(W)
+
+
+def _of_second(condition: Condition, y1: Expr, y2: Expr, x: Expr, W: Expr) -> Expr:
+    """The value of y2 or its slope, with y2' = (W + y1' y2)/y1 where y1 isn't zero: shorter than what differentiation gives."""
+    (term,) = condition.terms
+    if term.order:
+        value, rate = values_at(y1, x, term.point)
+        if value.is_nonzero:
+            return (W + rate * value_or_limit(y2, x, term.point)) / value
+    return condition.of(y2, x)
 
 
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:

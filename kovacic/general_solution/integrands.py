@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import sympy
@@ -112,7 +113,9 @@ def integral_of_product(term: Expr, x: Expr) -> Expr:
     require(functions or len(parts) != 1 or all(n.diff(x).has(x) for n, _ in split.values()))
     for base, (n, d) in split.items():
         term = term.replace(lambda e: e.is_Pow and e.base == base, lambda e: n**e.exp * d**-e.exp)  # noqa: B023
-    polynomials = [sympy.Poly(base, x) for base in radicands(term) if base.has(x) and base.is_polynomial(x)]
+    # a quotient is positive where the product of its parts is
+    products = (sympy.Mul(*sympy.fraction(sympy.together(base))) for base in radicands(term) if base.has(x))
+    polynomials = [sympy.Poly(base, x) for base in products if base.is_polynomial(x)]
     # roots of a - x and the like are real for x -> -oo
     odd = [polynomial for polynomial in polynomials if polynomial.degree() % 2]
     if odd and all(polynomial.LC().is_negative for polynomial in odd):
@@ -136,7 +139,10 @@ def _place_of_real_roots(radicands: list[Any], x: Expr) -> Expr | None:
         return sympy.oo
     if not radicands or any(polynomial.free_symbols_in_domain for polynomial in radicands):
         return None
-    return common_place(x, {polynomial: polynomial.as_expr() for polynomial in radicands})
+    zeros = sorted({zero for polynomial in radicands for zero in polynomial.ground_roots()})
+    between = ((a + b) / 2 for a, b in pairwise(zeros))
+    inside = next((point for point in between if all(f.eval(point) > 0 for f in radicands)), None)
+    return inside or common_place(x, {polynomial: polynomial.as_expr() for polynomial in radicands})
 
 
 def _constant_value(term: Expr, other: Expr, x: Expr) -> Expr:

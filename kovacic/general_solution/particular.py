@@ -39,6 +39,7 @@ from kovacic.closed_form.atoms import Atoms, is_seen_negative
 from kovacic.closed_form.check import DIGITS
 from kovacic.closed_form.cuts import all_turned, cuts_of
 from kovacic.closed_form.form import one_exponential
+from kovacic.closed_form.jets import jet
 from kovacic.closed_form.steps import JUMPING, in_parts
 from kovacic.closed_form.way_back import in_x
 from kovacic.equation import Equation
@@ -343,7 +344,10 @@ def turned_at(
 
 
 def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -> bool:
-    """True if y'' + b y' + c y = right, or y' + c y = right for one coefficient, at points in each quadrant, to 50 digits."""
+    """True if y'' + b y' + c y = right, or y' + c y = right for one coefficient, at points in each quadrant, to 50 digits.
+
+    Real ones on a cut of the right-hand side, where it isn't real, say nothing of its branch beside them.
+    """
     given = y.atoms(AppliedUndef, *JUMPING) | right.atoms(AppliedUndef, *JUMPING)
     # An exponential for each function that is given by its name, or jumps: the formula holds for any function.
     functions = enumerate(sorted(given, key=str))
@@ -351,6 +355,8 @@ def is_solution(y: Expr, coefficients: tuple[Expr, ...], right: Expr, x: Expr) -
     y, right = y.xreplace(sample), right.xreplace(sample)
     a, b, c = (sympy.S.Zero,) * (2 - len(coefficients)) + (sympy.S.One, *coefficients)
     with working_digits(DIGITS + 15), suppress(NotImplementedError):
-        found = (residual_at(point, x, y, (a, b, c, right)) for point in quadrant_points())
+        cuts = cuts_of(right, x)
+        points = (p for p in quadrant_points() if p.imag != 0 or not any(jet(u, x, p)[0].real < 0 for u in cuts))
+        found = (residual_at(point, x, y, (a, b, c, right)) for point in points)
         return all(bool(miss < arb(10) ** -DIGITS * (1 + scale)) for miss, scale in found)
     return False

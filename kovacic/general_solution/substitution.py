@@ -35,7 +35,7 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     # Beside the root alone: SymPy's substitution would compute rational sums exactly, without end.
     for total in expression.atoms(sympy.RootSum):
         term = finite_value(total.fun.expr, x, point)
-        if term is None:
+        if term is None or _is_infinite_at_a_root(total.poly, term):
             return None
         totals[total] = sympy.RootSum(total.poly, sympy.Lambda(total.fun.variables, term), auto=False)
     try:
@@ -53,6 +53,13 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     return value if is_known and _WITHOUT_VALUE.isdisjoint(value.atoms()) else None
 
 
+def _is_infinite_at_a_root(p: Any, term: Expr) -> bool:
+    """True if a logarithm of a polynomial in the letter of p has no value at one of the roots of p."""
+    a = p.gen
+    arguments = (f.args[0] for f in term.atoms(sympy.log) if f.args[0].has(a))
+    return any(sympy.expand(sympy.resultant(p.as_expr(), u, a)) == 0 for u in arguments if u.is_polynomial(a))
+
+
 def slope(expression: Expr, x: Expr) -> Expr:
     """SymPy's `diff`, with a look at the clock at each term and factor: it takes seconds where there are many."""
     check_time()
@@ -67,6 +74,9 @@ def slope(expression: Expr, x: Expr) -> Expr:
         for e, b in antiderivative_parameters(expression):  # z F' + e F is e times the function without e and b
             rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
             return e * (rest - expression) * z.diff(x) / z
+    if isinstance(expression, sympy.RootSum):  # SymPy would compute the sum of rational functions exactly, without end
+        terms = sympy.Lambda(expression.fun.variables, slope(expression.fun.expr, x))
+        return sympy.RootSum(expression.poly, terms, auto=False)
     if expression.has(sympy.Abs):  # of what is real, else SymPy writes real and imaginary parts
         real = {symbol: sympy.Dummy(real=True) for symbol in expression.free_symbols}
         return expression.xreplace(real).diff(real.get(x, x)).xreplace(inverted(real))

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from enum import Enum
 from itertools import islice
+from math import lcm
 from typing import Any
 
 import sympy
@@ -85,26 +86,46 @@ def is_nowhere_zero(value: Expr) -> bool:
 
 
 def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
-    """True for a polynomial in real letters over Q that is seen to be positive everywhere, or never negative.
+    """True for a polynomial in real letters, roots and functions that is seen to be positive everywhere, or never negative.
 
-    a v^2 + b v + c is if a and 4 a c - b^2 are; in one letter it is if it has no real root and is positive at 0.
+    a v^2 + b v + c is if a and 4 a c - b^2 are; over Q, one in a single letter is if it has no real root and is positive at 0.
 
     >>> a, b = sympy.symbols("a b")
-    >>> is_positive_polynomial(a**2 - 2*a + b**2 + 2), is_positive_polynomial(a**2 - 2*a + b**2 + 1)
+    >>> is_positive_polynomial(a**2 - a / sympy.sqrt(2) + b**2 + 1), is_positive_polynomial(a**2 - 2 * a + b**2 + 1)
     (True, False)
     """
-    letters = sorted(p.free_symbols, key=str)
-    if not letters:
-        return bool(p.is_nonnegative if or_zero else p.is_positive)
-    if not p.is_polynomial() or Poly(p, *letters).domain not in (sympy.ZZ, sympy.QQ):
+    is_seen = p.is_nonnegative if or_zero else p.is_positive
+    if is_seen or not p.free_symbols:
+        return bool(is_seen)
+    whole = Poly(_in_roots(p))
+    letters = {v: Dummy(str(v), real=True, positive=v.is_positive) for v in whole.gens if v.free_symbols}
+    if any(v.is_real is False or (v.is_Pow and not v.exp.is_Integer) for v in letters):
         return False
-    for v in letters:
-        coefficients = Poly(p, v).all_coeffs()
+    plain = whole.as_expr(*(letters.get(v, v) for v in whole.gens))
+    for v in sorted(plain.free_symbols, key=str):
+        coefficients = Poly(plain, v).all_coeffs()
         if len(coefficients) == 3:
             a, b, c = coefficients
-            parts = (a, expand(4 * a * c - b**2))
-            return all(is_positive_polynomial(part, or_zero=or_zero) for part in parts)
-    return len(letters) == 1 and bool(p.subs(letters[0], 0) > 0) and Poly(p, letters[0]).count_roots() == 0
+            if all(is_positive_polynomial(part, or_zero=or_zero) for part in (a, expand(4 * a * c - b**2))):
+                return True
+    is_rational = len(whole.gens) == 1 and whole.domain in (sympy.ZZ, sympy.QQ)
+    return is_rational and bool(whole.eval(0) > 0) and whole.count_roots() == 0
+
+
+def _in_roots(p: Expr) -> Expr:
+    """With letters for real roots, u^(1/6) being one of which u^(1/3) is the square: u >= 0, and u > 0 if it stands below."""
+    powers = [power for power in p.atoms(sympy.Pow) if power.exp.is_Rational and not power.exp.is_Integer]
+    exponents: dict[Expr, list[Any]] = {}
+    for power in powers:
+        exponents.setdefault(power.base, []).append(power.exp)
+    roots: dict[Expr, Expr] = {}
+    for u, found in exponents.items():
+        if u.free_symbols:
+            n = lcm(*(e.q for e in found))
+            sign = {"positive": True} if min(found) < 0 else {"nonnegative": True}
+            root = Dummy(str(u), **sign)
+            roots |= {u**e: root ** (e * n) for e in found}
+    return p.xreplace(roots)
 
 
 #: Functions, with a condition for one of them to be finite and not zero.

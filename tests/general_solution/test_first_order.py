@@ -250,6 +250,11 @@ def test_values_at_a_singular_point() -> None:
         kovacic.dsolve("x*y' + y = sin(x), y(0) = 1")
 
 
+def test_a_sum_over_roots_has_no_value_where_one_of_its_terms_is_infinite() -> None:
+    with pytest.raises(NotImplementedError, match="a finite value of the closed form isn't found at a"):
+        kovacic.dsolve("y' = x^(1/3)/(x-a), y(a)=1")
+
+
 def test_letters_in_denominators_are_named() -> None:
     with pytest.warns(UserWarning, match=r"unless n = 3, where y\(x\) = x\*\*3\*\(C1 \+ log\(x\)\)$"):
         kovacic.dsolve(sympy.Eq(y(x).diff(x), n * y(x) / x + x**2))
