@@ -32,16 +32,23 @@ Expr = Any  # SymPy publishes no types
 
 
 class RootSum(sympy.RootSum):  # type: ignore[misc]
-    """SymPy's, for polynomials with irrational coefficients: SymPy compares these with a TypeError, and so can't add two."""
+    """SymPy's, which stays a sum: SymPy computes those of rational functions, as in derivatives, exactly and without end.
+
+    With irrational coefficients SymPy compares polynomials with a TypeError, and so can't add two sums.
+    """
 
     def _hashable_content(self) -> tuple[Expr, ...]:
         return self.poly.as_expr(), self.poly.gen, self.fun
 
+    @classmethod
+    def _is_func_rational(cls, poly: Expr, func: Expr) -> bool:
+        return False
+
 
 def is_seen_negative(value: Expr) -> bool:
     """True if a value is negative once letters of unknown sign are taken as positive, as in -a^2."""
-    unknown = {s: sympy.Dummy(positive=True) for s in value.free_symbols if s.is_positive is None}
-    return bool(value.xreplace(unknown).is_negative)
+    known = value.xreplace({s: sympy.Dummy(positive=True) for s in value.free_symbols if s.is_positive is None})
+    return bool(known.is_negative) or (known.is_Add and sign_of_root(known) == -1)
 
 
 def sign_of_root(value: Expr) -> int | None:
@@ -362,8 +369,7 @@ class Atoms:
             roots = [sympy.expand_mul(sign * half - b / (2 * a)) for sign in (1, -1)]
             if all(root.is_rational_function() for root in roots):
                 return Add(*(body.subs(self.root, root) for root in roots))
-        kind = RootSum if over.domain.is_EX else sympy.RootSum
-        return kind(over, sympy.Lambda(self.root, body), auto=False)
+        return RootSum(over, sympy.Lambda(self.root, body))
 
 
 def _factors_of_binomial(p: Poly) -> list[Poly]:

@@ -598,21 +598,25 @@ def _sum_at_poles(residue: Residue, primitive: ExponentialPrimitive, atoms: Atom
         a = atoms.root
         body = atoms.poly(residue.value, a) * exp(atoms.poly(E.num, a)) * Ei(atoms.constant(E.num.lc) * (atoms.x - a))
         return Integer(1), atoms.root_sum(atoms.poly(residue.factor, a), body)
-    # For s = -t it is (-1)^alpha times the integral of rho s^alpha/(s + a); (-1)^alpha as where W k is written.
-    parts = ((t.num, primitive.alpha), (t.den, -primitive.alpha))
-    turned = [alpha if p.degree > 0 and atoms.is_turned(p) else Fraction(0) for p, alpha in parts]
-    sign = 1 if all(turned) or not any(turned) else -1
-    n, k = primitive.alpha.denominator, primitive.alpha.numerator
+    # For t = k s it is k^alpha times the integral of rho s^alpha/(s - a/k); k^alpha as where W k is written.
+    n, exponent = primitive.alpha.denominator, primitive.alpha.numerator
     field = residue.factor.field
-    power = sign * field.x**n
+    k, scale, root = field.one, Integer(1), Integer(1)
+    for p, side in ((t.num, 1), (t.den, -1)):
+        content, shown = atoms.primitive(p)
+        if content != 1:
+            scale *= atoms.sqrt(content.inverse()) ** (-2 * side * Rational(primitive.alpha))
+        if p.degree > 0 and atoms.is_turned(p):
+            content, shown, scale = -content, -shown, scale * Integer(-1) ** (side * Rational(primitive.alpha))
+        k *= content if side == 1 else content.inverse()
+        root *= shown ** Rational(side, n)
+    power = k * field.x**n
     in_root = atoms.of_variable(sympy.Dummy("u", real=True))
     found = Integer(0)
     for p, _ in field.factor(residue.factor(power).monic()):
-        unit = field.x if k > 0 else field.x.inverse_modulo(p)  # no pole is 0
-        found += in_root.log_sum(Residue(p, residue.value(power) * unit ** abs(k) % p))
-    bases = (-atoms.poly(p) if e else atoms.poly(p) for (p, _), e in zip(parts, turned, strict=True))
-    root = Mul(*(base ** Rational(e, n) for base, e in zip(bases, (1, -1), strict=True)))
-    return Integer(-1) ** Rational(sum(turned)), found.xreplace({in_root.x: root})
+        unit = field.x if exponent > 0 else field.x.inverse_modulo(p)  # no pole is 0
+        found += in_root.log_sum(Residue(p, residue.value(power) * unit ** abs(exponent) % p))
+    return scale, found.xreplace({in_root.x: root})
 
 
 def _gamma(factor: Poly, n: int, t: Expr, power: Fraction, atoms: Atoms) -> Scaled:

@@ -321,7 +321,8 @@ def _without_exponential(rational: RatFunc, fractional: list[_Root]) -> Primitiv
     """int r k dx for a product k of roots."""
     if not fractional:
         return RationalPrimitive(decompose(rational))
-    if all(alpha.denominator == 2 for _, alpha in fractional):
+    is_line = [p.degree for p, _ in fractional] == [1]
+    if not is_line and all(alpha.denominator == 2 for _, alpha in fractional):
         g = rational.field.one  # on s^2 = g, g the product of the radicands
         for p, alpha in fractional:
             g = g * p

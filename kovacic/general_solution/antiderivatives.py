@@ -74,8 +74,8 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
         cuts = {*cuts_of(found, x)} - {*cuts_of(integrand, x)}
         if any(cut.subs(x, start) == 0 for cut in cuts) and have_values([integrand], x, start):
             return None
-    # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one
-    has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for base in radicands(integrand))
+    # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one; so is sqrt(1 - 1/x^2), of asin(1/x)
+    has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for e in (integrand, found) for base in radicands(e))
     if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x, start):
         return None
     return found
@@ -87,7 +87,8 @@ def _by_rules(given: Expr, x: Expr) -> Expr:
     functions = _functions(integrand)
     require(functions <= _SIMPLE | set(_BY_PARTS))
     if functions <= {exp}:
-        rules = (integral_of_product, partial(_in_another_variable, _exponentials))
+        in_power, in_exponential = (partial(_in_another_variable, change) for change in (_power, _exponentials))
+        rules = (in_power, integral_of_product, in_exponential)
         with suppress(UnknownIntegral):  # 1/((x - 1)*sqrt(x)) is a product before it is expanded
             return first_known(partial(rule, whole, x) for rule in rules for whole in (integrand, given))
     total = sympy.S.Zero
@@ -165,6 +166,20 @@ def _arguments(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
     for u in sorted((u for u in own if u.has(x) and u != x), key=str):
         inner = term / _slope_of_inverse(u, x)
         yield ChangeOfIntegrand(prepared_integrand(inner.subs(x, known[u])) if u in known else inner.subs(u, t), t, u)
+
+
+def _power(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:
+    """To u = x^k, k > 1, for x^(k - 1) f(x^k), where f isn't a polynomial, and of rational ones, one without a pole at 0."""
+    is_rational = term.is_rational_function(x)
+    require(not (is_rational and sympy.denom(sympy.together(term)).subs(x, 0) == 0) and not term.is_polynomial(x))
+    t = Dummy(real=True)
+    exponents = {int(power.exp) for power in term.atoms(sympy.Pow) if power.base == x and power.exp.is_Integer}
+    for k in sorted({d for e in exponents for d in sympy.divisors(e)} - {1}, reverse=True):
+        root = t ** sympy.Rational(1, k)
+        inner = term.subs(x, root) * root / (k * t)
+        if not any(power.base == t and not power.exp.is_Integer for power in inner.atoms(sympy.Pow)):
+            yield ChangeOfIntegrand(inner, t, x**k)
+            return
 
 
 def _exponentials(term: Expr, x: Expr) -> Iterator[ChangeOfIntegrand]:

@@ -20,7 +20,7 @@ from sympy import Dummy, Integer, Symbol, cancel, cosh, expand, powsimp, sinh
 from sympy.core.function import AppliedUndef
 
 from kovacic.closed_form.atoms import Atoms, display, is_seen_negative
-from kovacic.closed_form.cuts import with_positive_factors
+from kovacic.closed_form.cuts import common_place, cuts_of, with_positive_factors
 from kovacic.closed_form.product import product
 from kovacic.closed_form.steps import JUMPING, Apart, in_parts
 from kovacic.errors import InputError, UnsatisfiableConditions, VerificationFailed
@@ -28,10 +28,10 @@ from kovacic.general_solution.antiderivatives import antiderivative
 from kovacic.general_solution.behaviour import Approach, UnknownLimit, have_values, limit_at, value_or_limit
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.conditions import Condition, conditions_at, read_conditions
-from kovacic.general_solution.integrands import NUMBERS, ratfunc
+from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
 from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import free_constants
-from kovacic.general_solution.substitution import by_functions, changed_beside, exact_decimals
+from kovacic.general_solution.substitution import by_functions, changed_beside, exact_decimals, powers_of_roots
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
 from kovacic.general_solution.validity import ZeroSet
 from kovacic.general_solution.zero import is_zero
@@ -140,10 +140,16 @@ class FirstOrderEquation(OfFirstOrder):
 
     @cached_property
     def place(self) -> Expr | None:
-        """Where solutions are to be real: the point of the value, else 0, or half way to a pole on its right if 0 is one."""
+        """Where solutions are to be real: the point of the value, else 0, or where the entries are.
+
+        For rational entries it is half way to a pole on the right of 0, if 0 is one.
+        """
         start, _ = self.value
         if start is not None or have_values(self.entries, self.x, _ZERO):
             return start or _ZERO
+        cuts = cuts_of(sympy.Tuple(self.p, self.q), self.x)
+        if cuts:
+            return common_place(self.x, {cut: cut for cut in cuts})
         whole = self.p + self.q
         is_rational = whole.is_rational_function(self.x)
         factors = sympy.factor_list(sympy.denom(sympy.together(whole)))[1] if is_rational else ()
@@ -200,7 +206,9 @@ def _in_powers(whole: Expr, function: Expr) -> tuple[Expr, Expr, Expr, Expr]:
     slope, w = Dummy(), Dummy()
     plain = whole.subs(function.diff(x), slope).subs(function, w)
     _require_first_order(not any(e.has(slope, w, function.func) for e in plain.atoms(sympy.Derivative, AppliedUndef)))
-    plain = expand(sympy.numer(sympy.together(plain)))
+    plain = sympy.numer(sympy.together(plain))
+    roots = {e for e in powers_of_roots(plain) if not e.has(w)}
+    plain = changed_beside(roots, plain, expand)
     plain = plain.replace(lambda e: e.is_Pow and e.base.has(w), lambda e: sympy.expand_power_base(e, force=True))
     coefficients = by_functions(plain, lambda f: not f.has(slope, w))
     leading, others = sympy.sift(coefficients, lambda f: f.has(slope), binary=True)
@@ -217,7 +225,13 @@ def _in_powers(whole: Expr, function: Expr) -> tuple[Expr, Expr, Expr, Expr]:
 
 def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
     """The quotient in lowest terms, with letters for functions that jump, which SymPy can't cancel."""
-    return changed_beside(numerator.atoms(*JUMPING), numerator, lambda plain: cancel(plain / denominator))
+
+    def reduced(quotient: Expr) -> Expr:
+        above, below = sympy.fraction(cancel(quotient))
+        return above / (sympy.factor(below) if radicands(below) else below)  # (x - 2) sqrt(x^2 + 1) is multiplied out
+
+    quotient = numerator / denominator
+    return changed_beside(quotient.atoms(*JUMPING) | powers_of_roots(quotient), quotient, reduced)
 
 
 # ------------------------------------------------------------------------------------------------------------ solving

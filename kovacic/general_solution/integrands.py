@@ -26,7 +26,7 @@ from kovacic.closed_form.integrals import integral, logarithms
 from kovacic.closed_form.product import product
 from kovacic.equation import EULER, PI
 from kovacic.errors import InputError
-from kovacic.general_solution.substitution import changed_beside, expanded_size
+from kovacic.general_solution.substitution import changed_beside, expanded_size, powers_of_roots
 from kovacic.limits import check_duration, manageable
 from kovacic.reading.read import read_input
 
@@ -86,16 +86,15 @@ def prepared_integrand(integrand: Expr) -> Expr:
     integrand = integrand.rewrite(HyperbolicFunction, exp)
     if integrand.has(tan, cot, sec, csc):
         integrand = TR2(TR1(integrand))
-    # SymPy would multiply (x + 1)^(-3/2) out, in the denominator, and write log(x/(1 - x) + 1/(1 - x)).
+    # SymPy would write log(x/(1 - x) + 1/(1 - x))
     quotients = [f for f in integrand.atoms(log) if f.args[0].is_Mul and sympy.denom(f.args[0]).is_Add]
-    roots = [p for p in integrand.atoms(sympy.Pow) if p.exp.is_Rational and not p.exp.is_Integer]
-    powers = [root for root in roots if root.exp < -1 and root.base.is_Add]
 
     def expanded(rest: Expr) -> Expr:
         check_duration(_PART_SECONDS * expanded_size(rest), "expanding an integrand")
         return expand(rest, power_exp=False)
 
-    return changed_beside((*quotients, *powers), integrand, expanded)
+    below = (power for power in powers_of_roots(integrand) if power.exp < 0)
+    return changed_beside((*quotients, *below), integrand, expanded)
 
 
 def radicands(expression: Expr) -> list[Expr]:

@@ -16,7 +16,7 @@ from sympy import Add, Mul, hyper
 from sympy.functions.special.bessel import BesselBase
 from sympy.simplify.fu import TR8
 
-from kovacic.closed_form.atoms import antiderivative_parameters, hypergeometric, sign_of_root
+from kovacic.closed_form.atoms import RootSum, antiderivative_parameters, hypergeometric, sign_of_root
 from kovacic.limits import check_time
 
 Expr = Any  # SymPy publishes no types
@@ -32,12 +32,12 @@ def finite_value(expression: Expr, x: Expr, point: Expr) -> Expr | None:
     """The value at a point, also of a series at 0, or of an integral from the point on; None if it isn't finite."""
     check_time()
     totals = {}
-    # Beside the root alone: SymPy's substitution would compute rational sums exactly, without end.
+    # beside the root alone
     for total in expression.atoms(sympy.RootSum):
         term = finite_value(total.fun.expr, x, point)
         if term is None or _is_infinite_at_a_root(total.poly, term):
             return None
-        totals[total] = sympy.RootSum(total.poly, sympy.Lambda(total.fun.variables, term), auto=False)
+        totals[total] = RootSum(total.poly, sympy.Lambda(total.fun.variables, term))
     try:
         value = expression.xreplace(totals).subs(x, point)
     except TypeError:  # SymPy has compared a part that isn't a number
@@ -74,9 +74,6 @@ def slope(expression: Expr, x: Expr) -> Expr:
         for e, b in antiderivative_parameters(expression):  # z F' + e F is e times the function without e and b
             rest = hypergeometric((*expression.ap, b), (*expression.bq, e), z)
             return e * (rest - expression) * z.diff(x) / z
-    if isinstance(expression, sympy.RootSum):  # SymPy would compute the sum of rational functions exactly, without end
-        terms = sympy.Lambda(expression.fun.variables, slope(expression.fun.expr, x))
-        return sympy.RootSum(expression.poly, terms, auto=False)
     if expression.has(sympy.Abs):  # of what is real, else SymPy writes real and imaginary parts
         real = {symbol: sympy.Dummy(real=True) for symbol in expression.free_symbols}
         return expression.xreplace(real).diff(real.get(x, x)).xreplace(inverted(real))
@@ -133,6 +130,12 @@ def changed_beside(parts: Iterable[Expr], e: Expr, change: Callable[[Expr], Expr
     """An expression changed with a letter for each of the parts, which stay."""
     letters = {part: sympy.Dummy() for part in parts}
     return change(e.xreplace(letters)).xreplace(inverted(letters))
+
+
+def powers_of_roots(e: Expr) -> set[Expr]:
+    """(x + 1)^(3/2), (x + 1)^(-3/2) and the like, which SymPy multiplies out."""
+    powers = (p for p in e.atoms(sympy.Pow) if p.base.is_Add and p.exp.is_Rational)
+    return {p for p in powers if not p.exp.is_Integer and abs(p.exp) > 1}
 
 
 # ---------------------------------------------------------------------------------------------------------------- size

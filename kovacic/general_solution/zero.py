@@ -94,10 +94,11 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     >>> is_positive_polynomial(a**2 - a / sympy.sqrt(2) + b**2 + 1), is_positive_polynomial(a**2 - 2 * a + b**2 + 1)
     (True, False)
     """
-    is_seen = p.is_nonnegative if or_zero else p.is_positive
+    plain = _in_roots(p)
+    is_seen = plain.is_nonnegative if or_zero else plain.is_positive
     if is_seen or not p.free_symbols:
         return bool(is_seen)
-    whole = Poly(_in_roots(p))
+    whole = Poly(plain)
     letters = {v: Dummy(str(v), real=True, positive=v.is_positive) for v in whole.gens if v.free_symbols}
     if any(v.is_real is False or (v.is_Pow and not v.exp.is_Integer) for v in letters):
         return False
