@@ -18,7 +18,7 @@ from kovacic.general_solution.constants import Determined
 from kovacic.general_solution.first_order import FirstOrderEquation
 from kovacic.general_solution.question import Question, with_assumptions
 from kovacic.general_solution.substitution import size
-from kovacic.general_solution.validity import Validity, ZeroSet, gamma_zeros, needed_for
+from kovacic.general_solution.validity import NOT_NEGATIVE, Need, Validity, ZeroSet, gamma_zeros, needed_for
 from kovacic.general_solution.zero import differs_from_zero
 
 Expr = Any  # SymPy publishes no types
@@ -93,8 +93,8 @@ class ProblemAnswer:
         return ()
 
     @property
-    def hidden_relations(self) -> tuple[Expr, ...]:
-        """Relations that the solution needs but the formula doesn't show, in symbols that carry the assumptions."""
+    def hidden_needs(self) -> tuple[Need, ...]:
+        """Signs that the solution needs but the formula doesn't show, in symbols that carry the assumptions."""
         return ()
 
     @cached_property
@@ -102,7 +102,7 @@ class ProblemAnswer:
         """Where the formula is real and valid: relations, and exceptional values of parameters."""
         eqs = [eq.xreplace(self.known) for eq in self.equations]
         formulas = [eq.rhs for eq in eqs]
-        found = needed_for(formulas, eqs[0].lhs.args[0], self.pair_exceptions, self.hidden_relations)
+        found = needed_for(formulas, eqs[0].lhs.args[0], self.pair_exceptions, self.hidden_needs)
         return Validity(
             tuple(relation.xreplace(self.own) for relation in found.real),
             tuple(e.xreplace(self.own) for e in found.exceptions),
@@ -178,12 +178,12 @@ class FirstOrderAnswer(ProblemAnswer):
     power_of_w: Expr | None = None
 
     @property
-    def hidden_relations(self) -> tuple[Expr, ...]:
+    def hidden_needs(self) -> tuple[Need, ...]:
         """u >= 0 for w = u^k, k = 1/(1 - n) an integer, which solves Bernoulli's equation only where w^(1/k) is u."""
         n = self.equation.power
         if self.power_of_w is None or n.is_integer or not (1 / (1 - n)).is_integer:
             return ()
-        return (sympy.GreaterThan(sympy.factor(self.power_of_w), 0, evaluate=False),)
+        return (Need(sympy.factor(self.power_of_w), NOT_NEGATIVE),)
 
 
 @dataclass(frozen=True, repr=False)
@@ -293,6 +293,6 @@ def validity(solution: Any, assume: Mapping[Any, Any] | None = None) -> Validity
     given = given_answer(eqs[0])
     exceptions, relations = (
         [] if given is None else [e.xreplace(given.own).xreplace(symbols) for e in getattr(given, beside)]
-        for beside in ("pair_exceptions", "hidden_relations")
+        for beside in ("pair_exceptions", "hidden_needs")
     )
     return needed_for(value.xreplace(symbols), x.xreplace(symbols), exceptions, relations)

@@ -187,8 +187,8 @@ def _possible_poles(question: Question, points: Sequence[Expr] = ()) -> Iterator
     elif len(numbers) > 1 and not is_of_a_line(equation):
         raise NotImplementedError("undecided: whether a singular point lies between the points that are given")
     parts = Tuple(*monic_coefficients(equation, x), right_hand_side(equation))
-    needs = (need.lhs for need in needs_of(question.own(parts)) if isinstance(need, sympy.Ne | sympy.StrictGreaterThan))
-    zeros = {factor.as_base_exp()[0] for need in needs for factor in sympy.Mul.make_args(sympy.factor(need))}
+    needs = (need.u for need in needs_of(question.own(parts)) if "0" not in need.signs)
+    zeros = {factor.as_base_exp()[0] for u in needs for factor in sympy.Mul.make_args(sympy.factor(u))}
     for zero in sorted(zeros, key=str):
         if zero.free_symbols == {x}:
             yield from _denominator_zeros(zero, x, sympy.Min(*numbers), sympy.Max(*numbers))

@@ -11,14 +11,14 @@ Reference: DLMF 4.2, 4.23, 4.37 (logarithms, inverse functions), 6.4 (Ei, Ci), 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import sympy
 from sympy import Add, Dummy, GreaterThan, I, Mul, Ne, Pow, S, StrictGreaterThan, cos, exp, expand, gamma, sin
-from sympy.logic.boolalg import BooleanAtom
 from sympy.simplify.fu import TR5, TR6
 from sympy.solvers.inequalities import reduce_rational_inequalities
 
@@ -57,12 +57,88 @@ class Validity:
     def __str__(self) -> str:
         """`x > 0, c**2 - 4*k*m != 0`."""
         real = (inequality(r.lhs) if isinstance(r, Ne) else str(r) for r in self.real)
-        implied = _nonzero_beside(self.real)
+        implied = _never_zero_beside(r.lhs for r in self.real if isinstance(r, StrictGreaterThan))
         return ", ".join([*real, *(inequality(e) for e in self.exceptions if e not in implied)])
 
 
+#: Signs that an expression may have; "i" is that of numbers that aren't real.
+POSITIVE, NOT_NEGATIVE, NONZERO, ANY = map(frozenset, ("+", "0+", "-+i", "-0+i"))
+#: The sign of -u, where it isn't that of u.
+_OPPOSITE = {"-": "+", "+": "-"}
+
+
+@dataclass(frozen=True)
+class Need:
+    """The signs that an expression must have: u > 0, u >= 0 or u != 0.
+
+    Of two needs of one expression the common signs are left: u > 0 for u >= 0 and u != 0.
+    """
+
+    u: Expr
+    signs: frozenset[str]
+
+    @property
+    def relation(self) -> Expr:
+        """As SymPy writes it."""
+        kind = {POSITIVE: StrictGreaterThan, NOT_NEGATIVE: GreaterThan, NONZERO: Ne}[self.signs]
+        return kind(self.u, 0, evaluate=False)
+
+    def __str__(self) -> str:
+        return str(self.relation)
+
+    def xreplace(self, values: Mapping[Expr, Expr]) -> Need:
+        """The need of the expression with other letters."""
+        return replace(self, u=self.u.xreplace(values))
+
+    @cached_property
+    def holds(self) -> bool:
+        """True if it is seen to hold for all real values of the letters.
+
+        As exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0 do.
+        """
+        e = self.u.xreplace(_real_letters(self.u))
+        if _signs_of(self.u) <= self.signs:
+            return True
+        if e.has(I):
+            return any(part.is_nonzero for part in expand(e).as_real_imag())
+        signed = (e, -e)[: 1 + (self.signs == NONZERO)]
+        if any(is_positive_polynomial(p, or_zero="0" in self.signs) for p in signed):
+            return True
+        roots, others = sympy.sift(Add.make_args(e), lambda part: part.is_Pow, binary=True)
+        is_root = len(roots) == 1 and roots[0].exp == S.Half
+        return is_root and bool(expand(roots[0].base - Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
+
+    def parts(self, known: Callable[[Expr], frozenset[str]]) -> Iterator[Need]:
+        """Needs that are equivalent to it for real roots and powers, of factors whose signs are `known`, and of the others.
+
+        a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0, and for k*x > 0 beside k >= 0;
+        v != 0 for v^2 > 0 and |v| > 0; k != 0 and x - a != 0 for k*(a - x) != 0; h >= 0 for h*k >= 0 beside k > 0;
+        u > 0 for u >= 0 where no factor of u is zero.
+        """
+        if self.signs == NONZERO:
+            yield from (Need(f, NONZERO) for f in _factors(self.u))
+            return
+        u, signs = _as_a_product(self.u), self.signs
+        if any(all("0" not in known(f) for f in factors) for factors in ([u], ZeroSet(u).factors)):
+            signs = POSITIVE
+        rest = []
+        for f in Mul.make_args(u.as_content_primitive()[1]):
+            base, exponent = f.as_base_exp() if f.is_Pow else (f, S.One)
+            is_real_root = not (exponent.is_integer or exponent.free_symbols)  # of what isn't negative
+            if isinstance(f, sympy.Abs) or exponent.is_even:
+                if signs == POSITIVE and not exponent.is_negative:
+                    yield Need(f.args[0], NONZERO)
+            elif Need(f, POSITIVE).holds:
+                continue
+            elif is_real_root or known(base) <= NOT_NEGATIVE:
+                yield Need(base, signs)
+            else:
+                rest.append(base if exponent.is_odd else f)
+        yield Need(Mul(*rest), signs)
+
+
 def needed_for(
-    formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (), others: Iterable[Expr] = ()
+    formulas: Iterable[Expr], x: Expr, exceptions: Iterable[Expr] = (), others: Iterable[Need] = ()
 ) -> Validity:
     """The requirements of formulas, part by part, and others; `exceptions` are those of the pair of solutions in them."""
     value, roots = _without_even_roots(sympy.Tuple(*formulas), x)
@@ -71,77 +147,69 @@ def needed_for(
     numbers = (node for node in sympy.preorder_traversal(plain) if node.is_number)
     has_real_numbers = all(number.is_extended_real for number in numbers)
     # atan and asinh have their cuts on the imaginary axis, where a root of something negative lies
-    cuts = (_positive_need(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
-    needs = [need.xreplace(roots) for need in (*needs_of(value), *cuts, *others)]
-    exceptions = tuple(exceptions)
-    found = _without_what_holds(needs, x, exceptions, has_real_parts=has_real_numbers)
+    cuts = (_positive(cut_of(e)) for e in value.atoms(sympy.atan, sympy.asinh) if e.has(*roots))
+    needs = [need.xreplace(roots) for need in chain(needs_of(value), *cuts, others)]
+    exceptions = [e for e in exceptions if not is_nowhere_zero(e)]
+    found = _stated(needs, x, exceptions, has_real_parts=has_real_numbers)
     if found is None:  # no x and letters make all parts real: it is a solution between the branch points
-        relations = (need for need in needs if not isinstance(need, BooleanAtom))
-        apart = [need if isinstance(need, Ne) else _nonzero(need.lhs) for need in relations]
-        found = _without_what_holds(apart, x, exceptions, has_real_parts=False)
+        apart = [n for need in needs for n in ([need] if need.signs == NONZERO else _nonzero(need.u))]
+        found = _stated(apart, x, exceptions, has_real_parts=False)
     assert found is not None
     return found
 
 
-def _without_what_holds(
-    relations: Sequence[Expr], x: Expr, exceptions: Iterable[Expr], *, has_real_parts: bool
-) -> Validity | None:
-    """The relations that need to be stated; None if one is false, by the assumptions on letters or beside the others."""
-    zeros = [e for e in exceptions if not is_nowhere_zero(e)]
-    nonzero: list[Expr] = []
-    for k in range(3):  # k > 0 from k sqrt(h k) > 0, and then h > 0 from h k > 0
-        # -x >= 0 and x != 0 are -x > 0; where letters are zero other formulas hold
-        nonzero += [r.lhs for r in relations if isinstance(r, Ne) and r.lhs.has(x)]
-        truths = {part: _truth(part) for r in relations for part in _shorter_relations(r, relations, nonzero)}
-        if False in truths.values():
-            return None
-        parts = [part for part, is_true in truths.items() if not is_true]
-        of_letters, relations = sympy.sift(parts, lambda r: isinstance(r, Ne) and not r.has(x), binary=True)
-        zeros = [*(factor for r in of_letters for factor in ZeroSet(r.lhs).factors), *zeros]
-        if k == 0:  # later rounds have u > 0 for u >= 0 because of the exception u, which therefore has to stay
-            said = _nonzero_beside(relations)
-        known = [r.lhs for r in relations if not isinstance(r, Ne)]
-        nonzero = [part for zero in zeros for part in (_for_real_letters(zero, known) if has_real_parts else (zero,))]
+def _stated(needs: Sequence[Need], x: Expr, exceptions: Sequence[Expr], *, has_real_parts: bool) -> Validity | None:
+    """The needs and exceptions that have to be stated; None if no x and letters satisfy the needs."""
+    of_formula = _simplified(needs)
+    if of_formula is None:
+        return None
+    of_letters, of_x = sympy.sift(of_formula, lambda n: n.signs == NONZERO and not n.u.has(x), binary=True)
+    zeros = [*(factor for need in of_letters for factor in ZeroSet(need.u).factors), *exceptions]
+    if has_real_parts:
+        known = [need.u for need in of_x if need.signs != NONZERO]
+        zeros = [part for zero in zeros for part in _for_real_letters(zero, known)]
+    # k >= 0 of the formula is k > 0 beside an exception k, which has to stay: for k = 0 another formula holds
+    said = _never_zero_beside(need.u for need in of_x if need.signs == POSITIVE)
+    unsaid = independent_exceptions(zero for zero in zeros if zero not in said)
+    whole = _simplified([*of_x, *(Need(zero, NONZERO) for zero in zeros)])
+    if whole is None:
+        return None
+    implied = _never_zero_beside(need.u for need in whole if need.signs == POSITIVE)
     # x != 0 follows from a x > 0, but not from x >= 0
-    implied = {Ne: _nonzero_beside(relations), GreaterThan: _positive_among(relations)}
-    shorter = [_of_cosine(r) for r in relations if r.lhs not in implied.get(r.func, ())]
-    real = _in_one_interval({(r.func, expand(r.lhs)): r for r in shorter}.values(), x)
-    unsaid = independent_exceptions(e for e in nonzero if e not in said)
+    needs = [_of_cosine(n) for n in whole if n.signs != NONZERO or (n.u.has(x) and n.u not in implied)]
+    real = _in_one_interval({(need.signs, expand(need.u)): need for need in needs}.values(), x)
     return None if real is None else Validity(real, unsaid, has_real_parts)
 
 
-def _shorter_relations(relation: Expr, beside: Collection[Expr], nonzero: Collection[Expr]) -> list[Expr]:
-    """Shorter relations equivalent to one, given others (`beside`) and what isn't zero, for real roots and powers.
+def _simplified(needs: Iterable[Need]) -> list[Need] | None:
+    """Shorter needs that are equivalent to these together; None if that is impossible."""
+    joined: dict[Expr, frozenset[str]] = {}
+    for need in needs:
+        joined[need.u] = joined.get(need.u, ANY) & need.signs
 
-    Factors of a known sign are left out: a^2 - x^2 > 0 for 1 - x^2/a^2 > 0; k > 0 and x > 0 for sqrt(k)*sqrt(x)*exp(x/2) > 0,
-    and for k*x > 0 beside k >= 0; v != 0 for v^2 > 0 and |v| > 0; k != 0 and x - a != 0 for k*(a - x) != 0;
-    u > 0 for u >= 0 beside u != 0, also by factors, and h >= 0 for h*k >= 0 beside k > 0.
-    """
-    if isinstance(relation, BooleanAtom):
-        return [relation]
-    u = relation.lhs
-    if isinstance(relation, Ne):
-        powers = (f.as_base_exp() for f in Mul.make_args(u) if not f.is_number)
-        factors = [base if exponent.is_positive else base**exponent for base, exponent in powers]
-        return [Ne(-f if f.could_extract_minus_sign() else f, 0) for f in factors]
-    u = _as_a_product(u)
-    is_strict = isinstance(relation, StrictGreaterThan) or ({*ZeroSet(u).factors} or {u}) <= {*nonzero}
-    positive, known = _positive_among(beside), {r.lhs for r in beside if isinstance(r, GreaterThan)}
-    apart, rest = [], []
-    for f in Mul.make_args(u.as_content_primitive()[1]):
-        base, exponent = f.as_base_exp() if f.is_Pow else (f, S.One)
-        is_fraction = not (
-            exponent.is_integer or exponent.free_symbols
-        )  # a power that is real for a positive base only
-        if _truth(_positive_need(f)) or (f in positive and not is_strict):
-            continue
-        if isinstance(f, sympy.Abs) or exponent.is_even:
-            apart += [_nonzero(f.args[0])] * (is_strict and not exponent.is_negative)
-        elif is_strict and (base in positive | known or is_fraction):
-            apart.append(_positive_need(base))
-        else:
-            rest.append(base if exponent.is_odd else f)
-    return [*apart, (_positive_need if is_strict else _not_negative)(Mul(*rest))]
+    def known(u: Expr) -> frozenset[str]:
+        opposite = {_OPPOSITE.get(sign, sign) for sign in joined.get(-u, ANY)}
+        return joined.get(u, ANY) & opposite & _signs_of(u)
+
+    if not all(map(known, joined)):
+        return None
+    parts = (part for u, signs in joined.items() for part in Need(u, signs).parts(known))
+    shorter = [part for part in dict.fromkeys(parts) if not part.holds]
+    return shorter if shorter == [*needs] else _simplified(shorter)
+
+
+def _signs_of(u: Expr) -> frozenset[str]:
+    """The signs that u may have by what is assumed of its letters, which are real."""
+    e = u.xreplace(_real_letters(u))
+    facts = {"-": e.is_extended_negative, "0": e.is_zero, "+": e.is_extended_positive, "i": not e.is_extended_real}
+    return frozenset(sign for sign, fact in facts.items() if fact is not False)
+
+
+def _factors(u: Expr) -> list[Expr]:
+    """The factors, without signs and powers with positive exponents: where one is zero, so is u."""
+    powers = (f.as_base_exp() for f in Mul.make_args(u) if not f.is_number)
+    factors = [base if exponent.is_positive else base**exponent for base, exponent in powers]
+    return [-f if f.could_extract_minus_sign() else f for f in factors]
 
 
 def _as_a_product(u: Expr) -> Expr:
@@ -153,14 +221,9 @@ def _as_a_product(u: Expr) -> Expr:
     return u
 
 
-def _positive_among(relations: Iterable[Expr]) -> set[Expr]:
-    return {relation.lhs for relation in relations if isinstance(relation, StrictGreaterThan)}
-
-
-def _nonzero_beside(relations: Iterable[Expr]) -> set[Expr]:
-    """The left sides of strict inequalities, which aren't zero, and their factors, with both signs."""
-    parts = [u for e in _positive_among(relations) for u in (e, *Mul.make_args(e), *ZeroSet(e).factors)]
-    return {sign * u for u in parts for sign in (1, -1)}
+def _never_zero_beside(positive: Iterable[Expr]) -> set[Expr]:
+    """What isn't zero where expressions are positive: these, and their factors."""
+    return {factor for u in positive for factor in (u, *_factors(u), *ZeroSet(u).factors)}
 
 
 def _for_real_letters(zero: Expr, known: Collection[Expr]) -> Sequence[Expr]:
@@ -205,51 +268,27 @@ def _without_even_roots(value: Expr, x: Expr) -> tuple[Expr, dict[Expr, Expr]]:
     return value, roots
 
 
-def _truth(relation: Expr) -> bool | None:
-    """True or False if a relation holds for all, or for no, real values of the letters; None if that isn't seen.
-
-    True for exp(x) + 1 != 0, x^2 - x + 1 > 0 and x + sqrt(x^2 + 1) > 0; False for an order between complex numbers.
-    """
-    if isinstance(relation, BooleanAtom):
-        return bool(relation)
-    e = relation.lhs.xreplace(_real_letters(relation))
-    is_inequality = isinstance(relation, Ne)
-    if e.is_extended_real is False and not is_inequality:
-        return False
-    value = relation.func(e, 0)
-    if isinstance(value, BooleanAtom):
-        return bool(value)
-    if e.has(I):
-        return any(part.is_nonzero for part in expand(e).as_real_imag()) or None
-    signed = (e, -e)[: 1 + is_inequality]
-    if any(is_positive_polynomial(p, or_zero=isinstance(relation, GreaterThan)) for p in signed):
-        return True
-    roots, others = sympy.sift(Add.make_args(e), lambda part: part.is_Pow, binary=True)
-    if len(roots) != 1 or roots[0].exp != S.Half:
-        return None
-    return expand(roots[0].base - Add(*others) ** 2).is_positive or None  # sqrt(g) > |f|
-
-
-def _in_one_interval(relations: Collection[Expr], x: Expr) -> tuple[Expr, ...] | None:
-    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, without relations that hold there; None if no interval satisfies all."""
-    relations = [r.reversedsign if r.lhs == -x else r for r in relations]  # x < 0
-    rational, others = sympy.sift(relations, lambda r: _is_over_Q(r.lhs, x), binary=True)
-    if len(relations) == 1 or not rational:
-        return tuple(relations)
+def _in_one_interval(needs: Collection[Need], x: Expr) -> tuple[Expr, ...] | None:
+    """x > 0 for x != 0, 1 + 1/x > 0, x + 1 > 0, without needs that hold there; None if no interval satisfies all."""
+    rational, others = sympy.sift(needs, lambda need: _is_over_Q(need.u, x), binary=True)
+    said = [need.relation.reversedsign if need.u == -x else need.relation for need in needs]  # x < 0
+    if not rational:
+        return tuple(said)
     t = Dummy(real=True)
-    where = reduce_rational_inequalities([[r.xreplace({x: t}) for r in rational]], t, relational=False)
+    where = reduce_rational_inequalities([[need.relation.xreplace({x: t}) for need in rational]], t, relational=False)
     if where.measure == 0:
         return None
-    if not isinstance(where, sympy.Interval) or where.has(sympy.CRootOf):
-        return tuple(relations)
+    if len(needs) == 1 or not isinstance(where, sympy.Interval) or where.has(sympy.CRootOf):
+        return tuple(said)
     a, b = where.start, where.end
     ends = [t > a if where.left_open else t >= a, t < b if where.right_open else t <= b]
     bounds = [bound for end in ends if (bound := end.xreplace({t: x})) != sympy.true]  # as x > -1 for a positive x is
     p = Dummy(positive=True)
     inside = a + p if b == sympy.oo else b - p if a == -sympy.oo else (a + b * p) / (1 + p)
     places = (inside, *(end for end in (a, b) if end in where))
-    others = [r for r in others if not all(expand(r.xreplace({x: place})) == sympy.true for place in places)]
-    return (*(bounds if len(bounds) < len(rational) else rational), *others)
+    others = [need for need in others if not all(need.xreplace({x: place}).holds for place in places)]
+    is_shorter = len(bounds) < len(rational)
+    return (*(bounds if is_shorter else [need.relation for need in rational]), *(need.relation for need in others))
 
 
 def _is_over_Q(e: Expr, x: Expr) -> bool:
@@ -258,15 +297,15 @@ def _is_over_Q(e: Expr, x: Expr) -> bool:
     return bool(e.is_rational_function(x)) and all(part.is_Rational or part.has(x) for part in parts)
 
 
-def _of_cosine(relation: Expr) -> Expr:
+def _of_cosine(need: Need) -> Need:
     """cos(u) != 0 for (1 + sin(u))*(1 - sin(u)) > 0, and other products of sums with waves as one wave."""
-    if not isinstance(relation, StrictGreaterThan) or not relation.lhs.has(sin, cos):
-        return relation
-    product = expand(relation.lhs)
+    if need.signs != POSITIVE or not need.u.has(sin, cos):
+        return need
+    product = expand(need.u)
     powers = (square.as_base_exp() for square in (TR5(product), TR6(product)))
     of_one_wave = in_single_waves(product).as_content_primitive()[1]
-    shorter = min(relation, of_one_wave > 0, key=sympy.count_ops)
-    return next((Ne(base, 0) for base, exponent in powers if exponent == 2), shorter)
+    shorter = Need(min(need.u, of_one_wave, key=sympy.count_ops), POSITIVE)
+    return next((Need(base, NONZERO) for base, exponent in powers if exponent == 2), shorter)
 
 
 # ---------------------------------------------------------------------------------------------------------- zero sets
@@ -392,12 +431,12 @@ def _has_no_zero(factor: Expr) -> bool:
 # ------------------------------------------------------------------------------------------------------ part by part
 
 
-def needs_of(e: Expr) -> Iterator[Expr]:
-    """Relations that make an expression real and finite.
+def needs_of(e: Expr) -> Iterator[Need]:
+    """Needs that make an expression real and finite.
 
     >>> x = sympy.Symbol("x")
-    >>> list(needs_of(1 / sympy.log(x)))
-    [x > 0, Ne(log(x), 0)]
+    >>> [str(need) for need in needs_of(1 / sympy.log(x))]
+    ['x > 0', 'Ne(log(x), 0)']
     """
     if isinstance(e, sympy.Integral):
         # the integrand at x, where it is integrated up to x; an end without x may be a singular point of it
@@ -414,56 +453,51 @@ def needs_of(e: Expr) -> Iterator[Expr]:
     for argument in e.args:
         yield from needs_of(argument)
     if e.func in _NEEDS:
-        yield from sympy.And.make_args(_NEEDS[e.func](e, e.args[-1]))
+        yield from _NEEDS[e.func](e, e.args[-1])
 
 
-def _of_power(e: Expr, exponent: Expr) -> Expr:
+def _of_power(e: Expr, exponent: Expr) -> list[Need]:
     """The need of a power with a real and finite base and exponent."""
     if e.base.is_number or (exponent.is_nonnegative and exponent.is_integer):
-        return sympy.true
+        return []
     if exponent.is_integer:
-        return Ne(e.base, 0)
-    return (_not_negative if exponent.is_Rational and exponent > 0 else _positive_need)(e.base)
+        return [Need(e.base, NONZERO)]
+    return (_not_negative if exponent.is_Rational and exponent > 0 else _positive)(e.base)
 
 
-def _positive_need(u: Expr) -> Expr:
+def _positive(u: Expr) -> list[Need]:
     """u > 0, for a cut from 0 to -oo; u != 0, the branch point, for an argument with an i."""
-    return _nonzero(u) if u.has(I) else StrictGreaterThan(u, 0, evaluate=False)
+    return _nonzero(u) if u.has(I) else [Need(u, POSITIVE)]
 
 
-def _not_negative(u: Expr) -> Expr:
+def _not_negative(u: Expr) -> list[Need]:
     """u >= 0, but nothing for an argument with an i."""
-    return sympy.true if u.has(I) else GreaterThan(u, 0, evaluate=False)
+    return [] if u.has(I) else [Need(u, NOT_NEGATIVE)]
 
 
-def _nonzero(u: Expr) -> Expr:
+def _nonzero(u: Expr) -> list[Need]:
     """u != 0, without numerical factors, and without the denominator, which has needs of its own."""
     factors = Mul.make_args(sympy.numer(u).as_content_primitive()[1])
-    return Ne(Mul(*(factor for factor in factors if not factor.is_number)), 0)
+    return [Need(Mul(*(factor for factor in factors if not factor.is_number)), NONZERO)]
 
 
-def _unless(is_entire: Any, need: Expr) -> Expr:
-    """The need, except of an entire function."""
-    return sympy.true if is_entire else need
-
-
-def _of_elliptic_integral(e: Expr, last: Expr) -> Expr:
+def _of_elliptic_integral(e: Expr, last: Expr) -> list[Need]:
     """F, E and Pi up to phi, or pi/2: there 1 - m sin(phi)^2, and 1 - n sin(phi)^2, have no zero."""
     moduli = [last] + [e.args[0]] * isinstance(e, sympy.elliptic_pi)
     square = sin(e.args[-2]) ** 2 if len(e.args) > len(moduli) else 1
-    return sympy.And(*(_positive_need(1 - m * square) for m in moduli))
+    return [need for m in moduli for need in _positive(1 - m * square)]
 
 
-def _of_hypergeometric(e: Expr, u: Expr) -> Expr:
+def _of_hypergeometric(e: Expr, u: Expr) -> list[Need]:
     """pFq: a polynomial, or entire for p <= q, with a cut from 1 on for p = q + 1, from 0 on for p > q + 1."""
-    defined = (Ne(1 / gamma(c), 0) for c in e.bq if c.free_symbols)  # poles at 0, -1, ...
+    defined = [Need(1 / gamma(c), NONZERO) for c in e.bq if c.free_symbols]  # poles at 0, -1, ...
     is_polynomial = any(a.is_integer and a.is_nonpositive for a in e.ap)
     cut = 1 - u if len(e.ap) == len(e.bq) + 1 else -u
-    return sympy.And(_unless(is_polynomial or len(e.ap) <= len(e.bq), _positive_need(cut)), *defined)
+    return defined if is_polynomial or len(e.ap) <= len(e.bq) else [*_positive(cut), *defined]
 
 
 #: The need of a power or a function e with the last argument u.
-_NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
+_NEEDS: dict[Any, Callable[[Expr, Expr], list[Need]]] = {
     Pow: _of_power,
     # inverse functions, and those with poles
     **dict.fromkeys((sympy.asin, sympy.acos), lambda e, u: _not_negative(cut_of(e))),
@@ -474,21 +508,21 @@ _NEEDS: dict[Any, Callable[[Expr, Expr], Expr]] = {
     # with a cut
     **dict.fromkeys(
         (sympy.log, sympy.Ci, sympy.expint, sympy.uppergamma, sympy.lowergamma, sympy.polylog, sympy.atanh),
-        lambda e, u: _positive_need(cut_of(e)),
+        lambda e, u: _positive(cut_of(e)),
     ),
-    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive_need(u)),
+    **dict.fromkeys((sympy.bessely, sympy.besselk), lambda e, u: _positive(u)),
     **dict.fromkeys((sympy.elliptic_k, sympy.elliptic_e, sympy.elliptic_f, sympy.elliptic_pi), _of_elliptic_integral),
     # J_n(u) is (u/2)^n times an entire function; y_n(u) is rational in u beside waves for an integer n
     **dict.fromkeys(
-        (sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: _unless(e.args[0].is_integer, _positive_need(u))
+        (sympy.besselj, sympy.besseli, sympy.jn), lambda e, u: [] if e.args[0].is_integer else _positive(u)
     ),
-    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive_need(u),
+    sympy.yn: lambda e, u: _nonzero(u) if e.args[0].is_integer else _positive(u),
     # polynomials for an integer n; else u > -1
     **dict.fromkeys(
         (sympy.legendre, sympy.gegenbauer, sympy.jacobi, sympy.chebyshevt, sympy.chebyshevu),
-        lambda e, u: _unless(e.args[0].is_integer, _positive_need(u + 1)),
+        lambda e, u: [] if e.args[0].is_integer else _positive(u + 1),
     ),
     # P_n^m(u) = (1 - u^2)^(m/2) times a polynomial for integers n and m
-    sympy.assoc_legendre: lambda e, u: _unless(e.args[0].is_integer and e.args[1].is_even, _positive_need(1 - u**2)),
+    sympy.assoc_legendre: lambda e, u: [] if e.args[0].is_integer and e.args[1].is_even else _positive(1 - u**2),
     sympy.hyper: _of_hypergeometric,
 }

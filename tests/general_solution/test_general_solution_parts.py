@@ -40,7 +40,7 @@ from kovacic.general_solution.riccati import RiccatiSolutions
 from kovacic.general_solution.substitution import finite_value
 from kovacic.general_solution.textbook import as_quotient, in_book_form, with_waves
 from kovacic.general_solution.undetermined import undetermined
-from kovacic.general_solution.validity import _in_one_interval, needed_for
+from kovacic.general_solution.validity import POSITIVE, Need, _in_one_interval, needed_for
 from kovacic.general_solution.waves import _at_tangent, _continuous_angle, fractions_of_waves, wave_zeros
 from kovacic.general_solution.zero import Zero, is_algebraic_zero, when_zero
 from kovacic.limits import DEFAULT_LIMITS
@@ -609,8 +609,8 @@ def test_spherical_bessel_functions_begin_as_in_the_handbook(order: int, first: 
 
 def test_relations_that_hold_in_an_interval() -> None:
     """x + sqrt(2) is positive between 2 and 5, x - pi isn't everywhere."""
-    relations = [x > 2, x < 5, x + sqrt(2) > 0, x - pi > 0]
-    assert _in_one_interval(relations, x) == (x > 2, x < 5, x - pi > 0)
+    needs = [Need(u, POSITIVE) for u in (x - 2, 5 - x, x + sqrt(2), x - pi)]
+    assert _in_one_interval(needs, x) == (x - 2 > 0, 5 - x > 0, x - pi > 0)
 
 
 def test_functions_of_a_tangent_in_single_waves() -> None:
