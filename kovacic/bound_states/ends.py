@@ -183,12 +183,11 @@ def _unbounded(end: EndBehaviour, pole: int, strength: Any, question: SpectralPr
     is_fast = end.at.is_finite or end.mu < pole + 2
     end = replace(end, oscillates=sign == -1, vanishes=sign == 1)
     if sign is None and is_fast:
-        said = f"one solution decays where {question.shown(sympy.factor(question.kinetic * strength))} > 0"
-        end = replace(end, other=sympy.Eq(strength, 0))
-        if question.signs.is_nonnegative(strength):  # a^2
-            end = replace(end, vanishes=True)
-        else:
-            end = replace(end, oscillates=True, circle=sympy.Lt(strength, 0))
+        grows, falls = (question.signs.is_nonnegative(side * strength) is True for side in (1, -1))  # a^2, -a^2
+        size = question.shown(sympy.factor(question.kinetic * (-strength if falls else strength)))
+        said = f"{_UNBOUNDED[-1, True] if falls else 'one solution decays'} where {size} > 0"
+        circle = sympy.false if grows else sympy.true if falls else sympy.Lt(strength, 0)
+        end = replace(end, other=sympy.Eq(strength, 0), vanishes=grows, oscillates=not grows, circle=circle)
     else:
         said = _UNBOUNDED[sign, is_fast]
         end = replace(end, circle=sympy.true if sign == -1 and is_fast else sympy.false)

@@ -1426,3 +1426,12 @@ def test_no_states_are_none_only_where_that_is_proven() -> None:
     with pytest.raises(kovacic.InputError, match="no level is known"):
         undecided.states({"a": 1})
     assert kovacic.spectrum("6/cosh(x)^2").states() == ()
+
+
+def test_a_potential_that_falls_for_every_letter_has_no_spectrum_of_its_own() -> None:
+    lines = str(kovacic.spectrum("-a^2*x^4")).splitlines()
+    assert lines[1].endswith("square integrable (limit circle) where a^2 > 0")
+    assert lines[3:] == [
+        "  a boundary condition is needed, there is no spectrum without one",
+        "  (none is distinguished)",
+    ]
