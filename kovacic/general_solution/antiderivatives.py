@@ -74,11 +74,7 @@ def antiderivative(integrand: Expr, x: Expr, start: Expr | None = None) -> Expr 
         cuts = {*cuts_of(found, x)} - {*cuts_of(integrand, x)}
         if any(cut.subs(x, start) == 0 for cut in cuts) and have_values([integrand], x, start):
             return None
-    # sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one; so is sqrt(1 - 1/x^2), of asin(1/x)
-    has_a_root_of_a_sum = any(base.has(x) and not base.is_Symbol for e in (integrand, found) for base in radicands(e))
-    if has_a_root_of_a_sum and not _holds_on_every_side(found, integrand, x, start):
-        return None
-    return found
+    return found if _holds_on_every_side(found, integrand, x, start) else None
 
 
 def _by_rules(given: Expr, x: Expr) -> Expr:
@@ -100,7 +96,13 @@ def _by_rules(given: Expr, x: Expr) -> Expr:
 
 
 def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr, start: Expr | None) -> bool:
-    """True if its derivative is the integrand at `start`, at distant real points at which that is real, and beside the axis."""
+    """False if roots of sums have another sign at `start`, at distant points where the integrand is real, or beside the axis.
+
+    sqrt(1 + tan(x)^2) is 1/cos(x) on one side of pi/2, and -1/cos(x) on the other one; so is sqrt(1 - 1/x^2), of asin(1/x).
+    """
+    has_root, gets_root = (any(base.has(x) and not base.is_Symbol for base in radicands(e)) for e in (integrand, found))
+    if not has_root and not gets_root:
+        return True
     difference = found.diff(x) - integrand
     letters = next(letter_samples(integrand.free_symbols - {x}))
     values = {point: ball_of(integrand, {**letters, x: point}) for point in _REAL_POINTS}
@@ -108,6 +110,8 @@ def _holds_on_every_side(found: Expr, integrand: Expr, x: Expr, start: Expr | No
     points = real if start is None else [*real, start]
     if any(differs_from_zero(difference, {**letters, x: point}) for point in points):
         return False
+    if not has_root:  # acosh(x), real for x >= 1, has the slope 1/(sqrt(x - 1) sqrt(x + 1))
+        return True
     beside = (known_jet(difference.xreplace(letters), x, point) for point in quadrant_points() if point.imag != 0)
     return all(value is None or value[0].contains(0) for value in beside)
 

@@ -309,6 +309,7 @@ class _Course:
         found = (islice(self._suspects(a, b, _INTERVAL_HALVINGS), _MOST_SUSPECTS) for a, b in pairs)
         return any(
             self._is_analytic(left, right, self.coefficients)
+            and not self._is_on_a_cut(left, right)
             and any(self._differ(left, right, order) for order in (0, 1))
             for left, right in chain.from_iterable(found)
         )
@@ -352,6 +353,12 @@ class _Course:
                 return False
         values = (known_jet(e, self.x, here) for e in functions)
         return all(found and found[0].is_finite() and found[1].is_finite() for found in values)
+
+    def _is_on_a_cut(self, a: Any, b: Any) -> bool:
+        """True where the equation isn't real, as beside log(x) for x < 0: there solutions may have a cut of their own."""
+        here = acb(arb(a).union(arb(b)))
+        found = (known_jet(cut, self.x, here) for cut in cuts_of(Tuple(*self.coefficients), self.x))
+        return any(u and bool(u[0].imag == 0 and u[0].real < 0) for u in found)
 
     def _differ(self, a: Any, b: Any, order: int) -> bool:
         """True if the values of y, or of y', at the ends of ever shorter intervals stay apart."""

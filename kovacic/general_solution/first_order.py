@@ -145,9 +145,10 @@ class FirstOrderEquation(OfFirstOrder):
         For rational entries it is half way to a pole on the right of 0, if 0 is one.
         """
         start, _ = self.value
-        if start is not None or have_values(self.entries, self.x, _ZERO):
-            return start or _ZERO
         cuts = cuts_of(sympy.Tuple(self.p, self.q), self.x)
+        is_real_at_zero = not any(is_seen_negative(cut.subs(self.x, _ZERO)) for cut in cuts)
+        if start is not None or (is_real_at_zero and have_values(self.entries, self.x, _ZERO)):
+            return start or _ZERO
         if cuts:
             return common_place(self.x, {cut: cut for cut in cuts})
         whole = self.p + self.q
@@ -228,7 +229,8 @@ def _quotient_by_terms(numerator: Expr, denominator: Expr) -> Expr:
 
     def reduced(quotient: Expr) -> Expr:
         above, below = sympy.fraction(cancel(quotient))
-        return above / (sympy.factor(below) if radicands(below) else below)  # (x - 2) sqrt(x^2 + 1) is multiplied out
+        # (x - 2) sqrt(x^2 + 1) and x (log(x) + 1) are multiplied out
+        return above / (sympy.factor(below) if radicands(below) or below.has(sympy.log) else below)
 
     quotient = numerator / denominator
     return changed_beside(quotient.atoms(*JUMPING) | powers_of_roots(quotient), quotient, reduced)
