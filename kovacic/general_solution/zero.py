@@ -88,7 +88,8 @@ def is_nowhere_zero(value: Expr) -> bool:
 def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     """True for a polynomial in real letters, roots and functions that is seen to be positive everywhere, or never negative.
 
-    a v^2 + b v + c is if a and 4 a c - b^2 are; over Q, one in a single letter is if it has no real root and is positive at 0.
+    a v^2 + b v + c is if a and 4 a c - b^2 are, and b v + c for a wave v if c + b and c - b are; over Q, one in a single letter
+    is if it has no real root and is positive at 0.
 
     >>> a, b = sympy.symbols("a b")
     >>> is_positive_polynomial(a**2 - a / sympy.sqrt(2) + b**2 + 1), is_positive_polynomial(a**2 - 2 * a + b**2 + 1)
@@ -103,12 +104,15 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
     if any(v.is_real is False or (v.is_Pow and not v.exp.is_Integer) for v in letters):
         return False
     plain = whole.as_expr(*(letters.get(v, v) for v in whole.gens))
-    for v in sorted(plain.free_symbols, key=str):
-        coefficients = Poly(plain, v).all_coeffs()
-        if len(coefficients) == 3:
-            a, b, c = coefficients
-            if all(is_positive_polynomial(part, or_zero=or_zero) for part in (a, expand(4 * a * c - b**2))):
-                return True
+    for function, v in sorted(letters.items(), key=str):
+        parts: list[Expr] = []
+        match Poly(plain, v).all_coeffs():
+            case a, b, c:
+                parts = [a, expand(4 * a * c - b**2)]
+            case b, c if isinstance(function, (sympy.sin, sympy.cos)):
+                parts = [c + b, c - b]
+        if parts and all(is_positive_polynomial(part, or_zero=or_zero) for part in parts):
+            return True
     is_rational = len(whole.gens) == 1 and whole.domain in (sympy.ZZ, sympy.QQ)
     return is_rational and bool(whole.eval(0) > 0) and whole.count_roots() == 0
 
