@@ -34,8 +34,6 @@ from kovacic.general_solution.behaviour import (
     Approach,
     UnknownLimit,
     limit_at,
-    value_or_limit,
-    values_at,
     zeros_of_leading_term,
 )
 from kovacic.general_solution.conditions import Condition
@@ -221,21 +219,22 @@ def tidy(value: Any) -> Any:
         return value
     if not functions:
         shorten = sympy.cancel if value.free_symbols or value.has(sympy.E) else expand
-        return min(sympy.radsimp(shorten(value), symbolic=False), _over_one_root(value), key=size)
+        forms = (sympy.radsimp(shorten(value), symbolic=False), _over_one_root(value))
+        return min(filter(None, forms), key=size)
     if not functions <= _ELEMENTARY:
         return min((value, expand(value), in_single_waves(value)), key=size)
     return min(map(TR2i, (value, sympy.cancel(value))), key=size)
 
 
-def _over_one_root(value: Expr) -> Expr:
-    """A number in Q(a^(1/n)), a > 0, as a polynomial in that root, without a denominator; any other value as it is."""
+def _over_one_root(value: Expr) -> Expr | None:
+    """A number in Q(a^(1/n)), a > 0, as a polynomial in that root, without a denominator; None for other values."""
     roots = [power for power in value.atoms(sympy.Pow) if not power.exp.is_Integer]
     if not roots or not all(root.base.is_Integer and root.base > 0 and root.exp.is_Rational for root in roots):
-        return value
+        return None
     x = sympy.Symbol("x_")
     number = read_input(value, var=x.name).S
     written = Atoms(x).constant(number.num[0] / number.den[0])
-    return value if written.has(sympy.CRootOf) else written
+    return None if written.has(sympy.CRootOf) else written
 
 
 def constants_of(
@@ -282,13 +281,9 @@ def _wronskian(question: Question, basis: Basis, limits: dict[Expr, Approach]) -
 
 
 def _of_second(condition: Condition, y1: Expr, y2: Expr, x: Expr, W: Expr) -> Expr:
-    """The value of y2 or its slope, with y2' = (W + y1' y2)/y1 where y1 isn't zero: shorter than what differentiation gives."""
+    """The value of y2 or its slope, with y2' = W/y1 where y1 is constant: shorter than what differentiation gives."""
     (term,) = condition.terms
-    if term.order:
-        value, rate = values_at(y1, x, term.point)
-        if value.is_nonzero:
-            return (W + rate * value_or_limit(y2, x, term.point)) / value
-    return condition.of(y2, x)
+    return W / y1 if term.order and not y1.has(x) else condition.of(y2, x)
 
 
 def _limit_place(condition: Condition, limits: dict[Expr, Approach]) -> Approach | None:

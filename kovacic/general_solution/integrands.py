@@ -140,7 +140,7 @@ def _place_of_real_roots(radicands: list[Any], x: Expr) -> Expr | None:
         return None
     zeros = sorted({zero for polynomial in radicands for zero in polynomial.ground_roots()})
     between = ((a + b) / 2 for a, b in pairwise(zeros))
-    inside = next((point for point in between if all(f.eval(point) > 0 for f in radicands)), None)
+    inside = next((point for point in between if all(f(point) > 0 for f in radicands)), None)
     return inside or common_place(x, {polynomial: polynomial.as_expr() for polynomial in radicands})
 
 

@@ -108,6 +108,11 @@ class Need:
         is_root = len(roots) == 1 and roots[0].exp == S.Half
         return is_root and bool(expand(roots[0].base - Add(*others) ** 2).is_positive)  # sqrt(g) > |f|
 
+    @property
+    def factors(self) -> list[Need]:
+        """That of each factor, for u != 0."""
+        return [Need(f, NONZERO) for f in _factors(self.u)]
+
     def parts(self, known: Callable[[Expr], frozenset[str]]) -> Iterator[Need]:
         """Needs that are equivalent to it for real roots and powers, of factors whose signs are `known`, and of the others.
 
@@ -116,7 +121,7 @@ class Need:
         u > 0 for u >= 0 where no factor of u is zero.
         """
         if self.signs == NONZERO:
-            yield from (Need(f, NONZERO) for f in _factors(self.u))
+            yield from self.factors
             return
         u, signs = _as_a_product(self.u), self.signs
         if any(all("0" not in known(f) for f in factors) for factors in ([u], ZeroSet(u).factors)):
@@ -160,11 +165,14 @@ def needed_for(
 
 def _stated(needs: Sequence[Need], x: Expr, exceptions: Sequence[Expr], *, has_real_parts: bool) -> Validity | None:
     """The needs and exceptions that have to be stated; None if no x and letters satisfy the needs."""
-    of_formula = _simplified(needs)
+    # where letters are zero other formulas hold, also for k beside k >= 0
+    split = [part for need in needs for part in (need.factors if need.signs == NONZERO else [need])]
+    of_letters, others = sympy.sift(split, lambda n: n.signs == NONZERO and not n.u.has(x), binary=True)
+    of_formula = _simplified(others)
     if of_formula is None:
         return None
-    of_letters, of_x = sympy.sift(of_formula, lambda n: n.signs == NONZERO and not n.u.has(x), binary=True)
-    zeros = [*(factor for need in of_letters for factor in ZeroSet(need.u).factors), *exceptions]
+    more, of_x = sympy.sift(of_formula, lambda n: n.signs == NONZERO and not n.u.has(x), binary=True)
+    zeros = [*(factor for need in (*of_letters, *more) for factor in ZeroSet(need.u).factors), *exceptions]
     if has_real_parts:
         known = [need.u for need in of_x if need.signs != NONZERO]
         zeros = [part for zero in zeros for part in _for_real_letters(zero, known)]

@@ -114,7 +114,7 @@ def is_positive_polynomial(p: Expr, *, or_zero: bool = False) -> bool:
         if parts and all(is_positive_polynomial(part, or_zero=or_zero) for part in parts):
             return True
     is_rational = len(whole.gens) == 1 and whole.domain in (sympy.ZZ, sympy.QQ)
-    return is_rational and bool(whole.eval(0) > 0) and whole.count_roots() == 0
+    return is_rational and bool(whole.nth(0) > 0) and whole.count_roots() == 0
 
 
 def _in_roots(p: Expr) -> Expr:
