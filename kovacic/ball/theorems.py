@@ -196,7 +196,7 @@ def read_ratio(text: str) -> sp.Expr:
 
     Raises `InputError` for 0 (a plane has no R1), for a ball that doesn't fit inside, and for a name with another meaning.
     """
-    taken = {"u", "pi", "e", *(symbol.name for symbol in (X, x1, x2, A1, A3, C1, C2))}
+    taken = {"u", "pi", "e", "nan", "inf", "oo", *(symbol.name for symbol in (X, x1, x2, A1, A3, C1, C2))}
     rho = sp.Symbol(text) if text.isidentifier() and text not in taken else exact_quantity(text, "R/R1")
     if rho == 0:
         shell = "a plane is --sphere plane, with --mass and --radius"

@@ -148,6 +148,7 @@ _BALL = ("--mass", "1", "--radius", "1", "--sphere", "3")
         (("--mass", "1", "--radius", "1"), "either --ratio"),
         (("--ratio", "1", "--mass", "1"), "stands alone"),
         (("--ratio", "x"), "can't contain x"),
+        (("--ratio", "nan"), "can't contain nan"),
         (("--ratio", "0"), "R/R1 = 0"),
         (("--mass", "-1", "--radius", "1", "--sphere", "1"), "m > 0 fails, as m = -1"),
         (("--mass", "1", "--radius", "0", "--sphere", "1"), "R > 0 fails"),
