@@ -29,7 +29,7 @@ from kovacic.general_solution.behaviour import Approach, UnknownLimit, have_valu
 from kovacic.general_solution.check import SolutionClaim, is_finite, jumps
 from kovacic.general_solution.conditions import Condition, conditions_at, read_conditions
 from kovacic.general_solution.integrands import NUMBERS, radicands, ratfunc
-from kovacic.general_solution.particular import starting_at, turned_at, with_letters_of_integration
+from kovacic.general_solution.particular import is_solution, starting_at, turned_at, with_letters_of_integration
 from kovacic.general_solution.question import free_constants
 from kovacic.general_solution.substitution import by_functions, changed_beside, exact_decimals, powers_of_roots
 from kovacic.general_solution.textbook import in_book_form, in_hyperbolic_functions, sums
@@ -258,8 +258,11 @@ def solved_linear(equation: FirstOrderEquation, taken: Set[Expr] = frozenset()) 
     start, _ = equation.value
     h = starting_at(turned_at(place, equation.homogeneous(), (-q,), _ZERO, x), x, start)
     if start is not None and p == 0:
-        h = _beside_value(h, x, start)
+        h = _beside_value(h, sympy.Pow, x, start)
     particular = turned_at(place, _of_parts(in_parts(p, x), h, x, start), (-q,), p, x)
+    if start is not None:
+        beside = _beside_value(particular, sympy.log, x, start)
+        particular = beside if beside != particular and is_solution(beside, (-q,), p, x) else particular
     in_factors = particular if place is None else with_positive_factors(particular, x, place)
     if in_factors != particular and in_factors.is_rational_function(x):
         particular = cancel(in_factors)
@@ -325,14 +328,17 @@ def _exponential_of_integral(q: Expr, x: Expr, start: Expr | None, place: Expr |
     return sympy.exp(_of_parts(in_parts(q, x), Integer(1), x, start))
 
 
-def _beside_value(h: Expr, x: Expr, start: Expr) -> Expr:
-    """h with (u(x)/u(a))^e for u^e, real on the side of a, where the sign of u(a) depends on letters."""
+def _beside_value(y: Expr, kind: Any, x: Expr, start: Expr) -> Expr:
+    """y with (u(x)/u(a))^e for u^e, or log(u(x)/u(a)), real on the side of a, where the sign of u(a) depends on letters."""
 
     def is_open(e: Expr) -> bool:
-        there = e.base.subs(x, start) if e.is_Pow and e.base.has(x) and not e.exp.is_Integer else _ZERO
-        return bool(there.free_symbols) and not (is_seen_negative(there) or is_seen_negative(-there))
+        if not isinstance(e, kind) or not e.args[0].has(x) or (e.is_Pow and e.exp.is_Integer):
+            return False
+        there = e.args[0].subs(x, start)
+        is_seen = e.is_Pow and (is_seen_negative(there) or is_seen_negative(-there))
+        return bool(there.free_symbols) and not (is_seen or there.is_positive or radicands(there))
 
-    return h.replace(is_open, lambda e: (e.base / e.base.subs(x, start)) ** e.exp)
+    return y.replace(is_open, lambda e: e.func(e.args[0] / e.args[0].subs(x, start), *e.args[1:]))
 
 
 def _of_parts(p: Apart, h: Expr, x: Expr, start: Expr | None) -> Expr:
