@@ -92,6 +92,15 @@ def test_command_prints_n_in_closed_form(run, ratio):
         assert label in text
 
 
+def test_both_omegas_solve_the_riccati_equation(run):
+    body = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3", "--sphere", "3")
+    data = json.loads(run(*body, "--json")[1].out)
+    S, *omegas = map(sp.parse_expr, (data["S"], *data["omega"]))
+    assert len(omegas) == 2
+    for omega in omegas:
+        assert abs(sp.N((sp.diff(omega, X) + omega**2 - S).subs(X, sp.Rational(1, 7)), 30)) < 1e-25
+
+
 @pytest.mark.long
 def test_text_names_D_and_E(run):
     body = ("--mass", "1", "--radius", "1", "--offset", "1/5", "--A1", "1/4", "--A3", "1/3", "--sphere", "3")

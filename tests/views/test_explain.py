@@ -611,3 +611,13 @@ def test_equations_with_a_right_hand_side_are_explained_by_their_homogeneous_one
     text = kovacic.solve("x^2*y'' + x*y' = 2*y").explain(solutions=False)
     assert "With y = v exp(int gamma dx), gamma = -b/(2a), it becomes its normal form for v:" in text
     assert "the solutions y1 and y2 are those of the equation as given.\n" in text
+
+
+def test_necessary_conditions_name_the_places_where_they_fail() -> None:
+    text = str(kovacic.solve("x + 1/x").explain()).splitlines()
+    verdicts = [re.split("  +", line) for line in text if re.match("[123]  ", line)]
+    assert [(case, verdict) for case, _, verdict in verdicts] == [
+        ("1", "fails at infinity"),
+        ("2", "fails"),
+        ("3", "fails at infinity"),
+    ]
